@@ -1,0 +1,1 @@
+//! Any method on any scene at any precision, judged.

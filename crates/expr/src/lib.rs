@@ -1,0 +1,1 @@
+//! Equation text to functions.

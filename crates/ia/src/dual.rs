@@ -1,0 +1,215 @@
+//! Forward-mode derivatives over any number.
+
+use std::array;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::constant::{HALF, LN_2, LN_10, MINUS_ONE, ONE, THREE, TWO, ZERO};
+use crate::{Binary, Constant, Number, Unary};
+
+/// A value and `K` directional derivatives.
+///
+/// `K = 1` along a ray gives F'(t), `K = 3` the gradient. Over intervals each tangent encloses the
+/// derivative wherever the function is differentiable in the box; where `abs`, `min` or `max` has a
+/// kink it encloses every slope between the one-sided ones, so the mean value theorem still holds.
+/// `floor`, `ceil`, `sign` and `mod` have slope 0 between their jumps, which a tangent does not see:
+/// a proof needs the continuity of the value as well.
+#[derive(Clone, Copy, Debug)]
+pub struct Dual<N, const K: usize> {
+    /// The value.
+    pub value: N,
+    /// The derivatives.
+    pub tangent: [N; K],
+}
+
+impl<N: Number, const K: usize> Dual<N, K> {
+    /// A number whose derivatives vanish.
+    #[inline(always)]
+    pub fn constant_value(value: N) -> Self {
+        let tangent = array::from_fn(|_| value.constant(&ZERO));
+        Self { value, tangent }
+    }
+
+    /// The `axis`-th independent variable: its own tangent is 1, the others 0.
+    #[inline(always)]
+    pub fn variable(value: N, axis: usize) -> Self {
+        let tangent = array::from_fn(|i| value.constant(if i == axis { &ONE } else { &ZERO }));
+        Self { value, tangent }
+    }
+
+    /// `value` with every tangent multiplied by the slope.
+    #[inline(always)]
+    fn chain(self, value: N, slope: N) -> Self {
+        Self { value, tangent: self.tangent.map(|t| t * slope.clone()) }
+    }
+
+    /// `value` with the tangents `a * self' + b * other'`.
+    #[inline(always)]
+    fn combine(self, other: Self, value: N, a: N, b: N) -> Self {
+        let mut others = other.tangent.into_iter();
+        let tangent = self.tangent.map(|t| {
+            let o = others.next().expect("as many tangents");
+            t * a.clone() + o * b.clone()
+        });
+        Self { value, tangent }
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, value: N, f: impl Fn(N, N) -> N) -> Self {
+        let mut others = other.tangent.into_iter();
+        let tangent = self.tangent.map(|t| f(t, others.next().expect("as many tangents")));
+        Self { value, tangent }
+    }
+}
+
+impl<N: Number, const K: usize> Add for Dual<N, K> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        let value = self.value.clone() + o.value.clone();
+        self.zip(o, value, |a, b| a + b)
+    }
+}
+
+impl<N: Number, const K: usize> Sub for Dual<N, K> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        let value = self.value.clone() - o.value.clone();
+        self.zip(o, value, |a, b| a - b)
+    }
+}
+
+impl<N: Number, const K: usize> Mul for Dual<N, K> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, o: Self) -> Self {
+        let (a, b) = (self.value.clone(), o.value.clone());
+        self.combine(o, a.clone() * b.clone(), b, a)
+    }
+}
+
+impl<N: Number, const K: usize> Div for Dual<N, K> {
+    type Output = Self;
+    /// `(a/b)' = (a' - (a/b) b') / b`.
+    #[inline(always)]
+    fn div(self, o: Self) -> Self {
+        let quotient = self.value.clone() / o.value.clone();
+        let (q, b) = (quotient.clone(), o.value.clone());
+        self.zip(o, quotient, |da, db| (da - q.clone() * db) / b.clone())
+    }
+}
+
+impl<N: Number, const K: usize> Neg for Dual<N, K> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { value: -self.value, tangent: self.tangent.map(|t| -t) }
+    }
+}
+
+impl<N: Number, const K: usize> Number for Dual<N, K> {
+    #[inline(always)]
+    fn constant(&self, c: &Constant) -> Self {
+        Self::constant_value(self.value.constant(c))
+    }
+
+    #[inline(always)]
+    fn scale(self, c: &Constant) -> Self {
+        Self { value: self.value.scale(c), tangent: self.tangent.map(|t| t.scale(c)) }
+    }
+
+    #[inline(always)]
+    fn offset(self, c: &Constant) -> Self {
+        Self { value: self.value.offset(c), tangent: self.tangent }
+    }
+
+    #[inline(always)]
+    fn sqr(self) -> Self {
+        let slope = self.value.clone().scale(&TWO);
+        let value = self.value.clone().sqr();
+        self.chain(value, slope)
+    }
+
+    #[inline(always)]
+    fn powi(self, n: i32) -> Self {
+        if n == 0 {
+            return Self::constant_value(self.value.powi(0));
+        }
+        let value = self.value.clone().powi(n);
+        let slope = self.value.clone().powi(n - 1).scale(&Constant::integer(n));
+        self.chain(value, slope)
+    }
+
+    #[inline(always)]
+    fn powc(self, c: &Constant) -> Self {
+        let value = self.value.clone().powc(c);
+        let slope = self.value.clone().powc(&c.minus_one()).scale(c);
+        self.chain(value, slope)
+    }
+
+    #[inline(always)]
+    fn unary(self, f: Unary) -> Self {
+        let x = self.value.clone();
+        let y = x.clone().unary(f);
+        let one = || x.constant(&ONE);
+        let slope = match f {
+            Unary::Sqrt => one() / y.clone().scale(&TWO),
+            Unary::Cbrt => one() / y.clone().sqr().scale(&THREE),
+            Unary::Abs => x.unary(Unary::Sign),
+            Unary::Sign | Unary::Floor | Unary::Ceil => x.constant(&ZERO),
+            Unary::Exp => y.clone(),
+            Unary::Exp2 => y.clone().scale(&LN_2),
+            Unary::Exp10 => y.clone().scale(&LN_10),
+            Unary::Expm1 => y.clone().offset(&ONE),
+            Unary::Log => one() / x,
+            Unary::Log2 => one() / x.scale(&LN_2),
+            Unary::Log10 => one() / x.scale(&LN_10),
+            Unary::Logp1 => one() / x.offset(&ONE),
+            Unary::Sin => x.unary(Unary::Cos),
+            Unary::Cos => -x.unary(Unary::Sin),
+            Unary::Tan => y.clone().sqr().offset(&ONE),
+            Unary::Asin => one() / (one() - x.sqr()).unary(Unary::Sqrt),
+            Unary::Acos => -(one() / (one() - x.sqr()).unary(Unary::Sqrt)),
+            Unary::Atan => one() / x.sqr().offset(&ONE),
+            Unary::Sinh => x.unary(Unary::Cosh),
+            Unary::Cosh => x.unary(Unary::Sinh),
+            Unary::Tanh => one() - y.clone().sqr(),
+            Unary::Asinh => one() / x.sqr().offset(&ONE).unary(Unary::Sqrt),
+            Unary::Acosh => one() / x.sqr().offset(&MINUS_ONE).unary(Unary::Sqrt),
+            Unary::Atanh => one() / (one() - x.sqr()),
+        };
+        self.chain(y, slope)
+    }
+
+    #[inline(always)]
+    fn binary(self, f: Binary, o: Self) -> Self {
+        let (x, y) = (self.value.clone(), o.value.clone());
+        let value = x.clone().binary(f, y.clone());
+        match f {
+            // The weight of the first operand is 1 where it is chosen, 0 where it is not.
+            Binary::Min | Binary::Max => {
+                let difference = if f == Binary::Min { y - x } else { x - y };
+                let first = difference.unary(Unary::Sign).offset(&ONE).scale(&HALF);
+                let second = first.constant(&ONE) - first.clone();
+                self.combine(o, value, first, second)
+            }
+            Binary::Mod => {
+                let steps = (x / y).unary(Unary::Floor);
+                self.zip(o, value, |dx, dy| dx - steps.clone() * dy)
+            }
+            Binary::Atan2 => {
+                let norm = x.clone().sqr() + y.clone().sqr();
+                self.combine(o, value, y / norm.clone(), -x / norm)
+            }
+            Binary::Hypot => {
+                let (a, b) = (x / value.clone(), y / value.clone());
+                self.combine(o, value, a, b)
+            }
+            Binary::Pow => {
+                let slope = y.clone() * x.clone().binary(Binary::Pow, y.offset(&MINUS_ONE));
+                let growth = value.clone() * x.unary(Unary::Log);
+                self.combine(o, value, slope, growth)
+            }
+        }
+    }
+}

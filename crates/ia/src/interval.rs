@@ -1,0 +1,345 @@
+//! Intervals over any real.
+
+use std::fmt::Debug;
+use std::marker::PhantomData;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::elementary;
+use crate::{Binary, Constant, Number, Real, Scalar, Unary};
+
+/// How intervals treat what is not a bounded, non-empty interval.
+pub trait Flavor: Copy + Debug + 'static {
+    /// Are empty and unbounded intervals handled?
+    const SET: bool;
+}
+
+/// Bounded, non-empty intervals only: the fastest form.
+///
+/// A precondition of its bounds: no operand is infinite or NaN, and no divisor contains 0. A caller
+/// establishes it once, by evaluating the box that contains all others with [`Set`] and looking at
+/// every sub-value; inclusion then extends it to every smaller box.
+#[derive(Clone, Copy, Debug)]
+pub struct Raw;
+
+/// Set-based intervals as in IEEE 1788: unbounded ones have infinite ends, the empty one is NaN at
+/// both ends, and a function's value is its range over the part of the argument in its domain.
+#[derive(Clone, Copy, Debug)]
+pub struct Set;
+
+impl Flavor for Raw {
+    const SET: bool = false;
+}
+impl Flavor for Set {
+    const SET: bool = true;
+}
+
+/// All numbers between `lo` and `hi`, in each lane of `R`.
+///
+/// If `R` is outward, every operation gives an interval that contains each exact result on members
+/// of its operands. The excess over the tightest such interval is at most one unit in the last place
+/// an end for arithmetic and square roots with nudged marks, none with embedded rounding, and two
+/// (`f32`) or three (`f64`) units for elementary functions of [`Scalar::elementary`].
+#[derive(Clone, Copy, Debug)]
+pub struct Interval<R, F = Raw> {
+    /// Lower end.
+    pub lo: R,
+    /// Upper end.
+    pub hi: R,
+    flavor: PhantomData<F>,
+}
+
+impl<R: Real, F: Flavor> Interval<R, F> {
+    /// The interval `[lo, hi]`.
+    #[inline(always)]
+    pub fn new(lo: R, hi: R) -> Self {
+        Self { lo, hi, flavor: PhantomData }
+    }
+
+    /// The interval that holds `x` alone.
+    #[inline(always)]
+    pub fn point(x: R) -> Self {
+        Self::new(x, x)
+    }
+
+    /// Lower and upper end.
+    #[inline(always)]
+    pub fn bounds(self) -> [R; 2] {
+        [self.lo, self.hi]
+    }
+
+    /// The smallest interval that contains both operands, neither of which may be empty.
+    #[inline(always)]
+    pub fn hull(self, other: Self) -> Self {
+        Self::new(self.lo.min(other.lo), self.hi.max(other.hi))
+    }
+
+    /// Largest absolute value: `max(-lo, hi)`.
+    #[inline(always)]
+    fn magnitude(self) -> R {
+        (-self.lo).max(self.hi)
+    }
+
+    /// Smallest absolute value: `max(lo, -hi, 0)`.
+    #[inline(always)]
+    fn mignitude(self) -> R {
+        self.lo.max(-self.hi).max(zero(self.lo))
+    }
+
+    /// Applies a scalar function of bounds lane by lane.
+    #[inline(always)]
+    fn map(self, f: impl Fn([R::Scalar; 2]) -> [R::Scalar; 2]) -> Self {
+        let [lo, hi] = R::map([self.lo, self.hi], f);
+        Self::new(lo, hi)
+    }
+
+    /// Restores NaN at both ends where an operand was empty (min and max drop NaN).
+    #[inline(always)]
+    fn empty_where(self, x: Self) -> Self {
+        if !F::SET {
+            return self;
+        }
+        let infinity = x.lo.splat(R::Scalar::INFINITY);
+        let nan = x.lo.splat(R::Scalar::NAN);
+        Self::new(x.lo.select_lt(infinity, self.lo, nan), x.lo.select_lt(infinity, self.hi, nan))
+    }
+}
+
+impl<S: Scalar, F: Flavor> Interval<S, F> {
+    /// Does it contain no number?
+    #[inline(always)]
+    pub fn is_empty(self) -> bool {
+        self.lo.is_nan() || self.hi.is_nan()
+    }
+
+    /// Is `x` a member?
+    #[inline(always)]
+    pub fn contains(self, x: S) -> bool {
+        self.lo <= x && x <= self.hi
+    }
+
+    /// Is 0 a member?
+    #[inline(always)]
+    pub fn contains_zero(self) -> bool {
+        self.contains(zero(self.lo))
+    }
+}
+
+/// 0 in the context of `x`.
+#[inline(always)]
+fn zero<R: Real>(x: R) -> R {
+    x.splat(R::Scalar::from_f64(0.0))
+}
+
+/// The product with `0 * inf = 0`, and 0 for NaN.
+#[inline(always)]
+fn product<R: Real>(x: R, y: R) -> R {
+    let p = x * y;
+    let zero = zero(x);
+    p.select_lt(zero, p, zero.select_lt(p, p, zero))
+}
+
+/// `x^n` for `x >= 0`, `n >= 1`, every product rounded by `mul`, which may not fall below 0.
+#[inline(always)]
+fn power<R: Real>(x: R, n: u32, mul: impl Fn(R, R) -> R) -> R {
+    let mut square = x;
+    let mut result = None;
+    let mut n = n;
+    loop {
+        if n & 1 == 1 {
+            result = Some(match result {
+                None => square,
+                Some(r) => mul(r, square),
+            });
+        }
+        n >>= 1;
+        if n == 0 {
+            return result.expect("n is at least 1");
+        }
+        square = mul(square, square);
+    }
+}
+
+#[inline(always)]
+fn power_down<R: Real>(x: R, n: u32) -> R {
+    let zero = zero(x);
+    power(
+        x,
+        n,
+        #[inline(always)]
+        |a, b| a.mul_down(b).max(zero),
+    )
+}
+
+#[inline(always)]
+fn power_up<R: Real>(x: R, n: u32) -> R {
+    power(
+        x,
+        n,
+        #[inline(always)]
+        |a, b| a.mul_up(b),
+    )
+}
+
+impl<R: Real, F: Flavor> Add for Interval<R, F> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self::new(self.lo.add_down(o.lo), self.hi.add_up(o.hi))
+    }
+}
+
+impl<R: Real, F: Flavor> Sub for Interval<R, F> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        Self::new(self.lo.sub_down(o.hi), self.hi.sub_up(o.lo))
+    }
+}
+
+impl<R: Real, F: Flavor> Neg for Interval<R, F> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::new(-self.hi, -self.lo)
+    }
+}
+
+impl<R: Real, F: Flavor> Mul for Interval<R, F> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, o: Self) -> Self {
+        if F::SET {
+            let p = product(self.lo, o.lo);
+            let q = product(self.lo, o.hi);
+            let r = product(self.hi, o.lo);
+            let s = product(self.hi, o.hi);
+            let lo = p.min(q).min(r.min(s)).down();
+            let hi = p.max(q).max(r.max(s)).up();
+            Self::new(lo, hi).empty_where(self).empty_where(o)
+        } else {
+            let [lo, hi] = R::mul_bounds(self.bounds(), o.bounds());
+            Self::new(lo, hi)
+        }
+    }
+}
+
+impl<R: Real, F: Flavor> Div for Interval<R, F> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, o: Self) -> Self {
+        if F::SET {
+            let [lo, hi] = R::map([self.lo, self.hi, o.lo, o.hi], |[a, b, c, d]| {
+                elementary::divide([a, b], [c, d])
+            });
+            return Self::new(lo, hi);
+        }
+        let p = self.lo / o.lo;
+        let q = self.lo / o.hi;
+        let r = self.hi / o.lo;
+        let s = self.hi / o.hi;
+        Self::new(p.min(q).min(r.min(s)).down(), p.max(q).max(r.max(s)).up())
+    }
+}
+
+impl<R: Real, F: Flavor> Number for Interval<R, F> {
+    #[inline(always)]
+    fn constant(&self, c: &Constant) -> Self {
+        let [lo, hi] = R::Scalar::enclose(c);
+        Self::new(self.lo.splat(lo), self.lo.splat(hi))
+    }
+
+    #[inline(always)]
+    fn scale(self, c: &Constant) -> Self {
+        let [c_lo, c_hi] = R::Scalar::enclose(c);
+        if F::SET || c_lo != c_hi {
+            return self * self.constant(c);
+        }
+        // A point factor: its sign tells which end is which.
+        let factor = self.lo.splat(c_lo);
+        if c_lo < R::Scalar::from_f64(0.0) {
+            Self::new(self.hi.mul_down(factor), self.lo.mul_up(factor))
+        } else {
+            Self::new(self.lo.mul_down(factor), self.hi.mul_up(factor))
+        }
+    }
+
+    #[inline(always)]
+    fn offset(self, c: &Constant) -> Self {
+        self + self.constant(c)
+    }
+
+    #[inline(always)]
+    fn sqr(self) -> Self {
+        let (mig, mag) = (self.mignitude(), self.magnitude());
+        Self::new(mig.mul_down(mig).max(zero(mig)), mag.mul_up(mag)).empty_where(self)
+    }
+
+    #[inline(always)]
+    fn powi(self, n: i32) -> Self {
+        if n == 0 {
+            let one = self.lo.splat(R::Scalar::from_f64(1.0));
+            return Self::point(one).empty_where(self);
+        }
+        if n < 0 {
+            let one = Self::point(self.lo.splat(R::Scalar::from_f64(1.0)));
+            return one / self.powi(n.checked_neg().expect("exponents are limited"));
+        }
+        let n = n.unsigned_abs();
+        if n == 1 {
+            return self;
+        }
+        if n.is_multiple_of(2) {
+            let (mig, mag) = (self.mignitude(), self.magnitude());
+            return Self::new(power_down(mig, n), power_up(mag, n)).empty_where(self);
+        }
+        // Odd powers increase: x^n = x |x|^(n-1), the even power rounded away from the result's end.
+        let zero = zero(self.lo);
+        let even = |x: R| (power_down(x.abs(), n - 1), power_up(x.abs(), n - 1));
+        let (down, up) = even(self.lo);
+        let lo = self.lo.mul_down(self.lo.select_lt(zero, up, down));
+        let (down, up) = even(self.hi);
+        let hi = self.hi.mul_up(self.hi.select_lt(zero, down, up));
+        Self::new(lo, hi)
+    }
+
+    #[inline(always)]
+    fn powc(self, c: &Constant) -> Self {
+        let exponent = R::Scalar::enclose(c);
+        self.map(|x| elementary::power(x, exponent))
+    }
+
+    #[inline(always)]
+    fn unary(self, f: Unary) -> Self {
+        match f {
+            Unary::Abs => Self::new(self.mignitude(), self.magnitude()).empty_where(self),
+            Unary::Floor => Self::new(self.lo.floor(), self.hi.floor()),
+            Unary::Ceil => Self::new(self.lo.ceil(), self.hi.ceil()),
+            Unary::Sqrt if !F::SET => {
+                let zero = zero(self.lo);
+                let lo = self.lo.max(zero).sqrt_down().max(zero);
+                Self::new(lo, self.hi.max(zero).sqrt_up())
+            }
+            _ => self.map(|x| elementary::unary(f, x)),
+        }
+    }
+
+    #[inline(always)]
+    fn binary(self, f: Binary, o: Self) -> Self {
+        match f {
+            Binary::Min => {
+                let min = Self::new(self.lo.min(o.lo), self.hi.min(o.hi));
+                min.empty_where(self).empty_where(o)
+            }
+            Binary::Max => {
+                let max = Self::new(self.lo.max(o.lo), self.hi.max(o.hi));
+                max.empty_where(self).empty_where(o)
+            }
+            _ => {
+                let [lo, hi] = R::map([self.lo, self.hi, o.lo, o.hi], |[a, b, c, d]| {
+                    elementary::binary(f, [a, b], [c, d])
+                });
+                Self::new(lo, hi)
+            }
+        }
+    }
+}

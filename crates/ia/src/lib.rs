@@ -1,0 +1,42 @@
+//! Numbers that carry guarantees.
+//!
+//! Each number is written **once**, over machine reals:
+//!
+//! - A [`Real`] is what a float unit does, with *marks* that round a result down or up. `f32` and
+//!   `f64` are reals (their marks step to the neighbouring float), so are SIMD [`Lanes`], lanes with
+//!   rounding embedded in the instruction, and [`Nearest`], whose marks do nothing.
+//! - A [`Number`] is what an equation is evaluated over: a plain real, an [`Interval`], a [`Dual`].
+//!
+//! Rounding therefore belongs to the real and not to the interval: `Interval<f32>` is outward,
+//! `Interval<Nearest<f32>>` is what graphics papers use, and the same lines of code serve both.
+//! Only a real with [`Real::OUTWARD`] may claim a proof.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`real`] | machine reals: scalars, nearest rounding, pairs |
+//! | [`lanes`] | SIMD lanes, chosen at run time |
+//! | [`number`] | what an expression needs of a number |
+//! | [`interval`] | intervals, raw and set-based (IEEE 1788) |
+//! | [`plain`] | plain reals as numbers |
+//! | [`dual`] | forward-mode derivatives over any number |
+//! | [`big`] | intervals of any precision |
+//! | [`constant`] | exact constants, as every number takes them |
+
+pub mod big;
+pub mod constant;
+pub mod dual;
+pub mod elementary;
+pub mod interval;
+pub mod lanes;
+pub mod number;
+pub mod plain;
+pub mod real;
+
+pub use big::BigInterval;
+pub use constant::Constant;
+pub use dual::Dual;
+pub use interval::{Interval, Raw, Set};
+pub use lanes::{Isa, Kernel, Lanes, Rounding, dispatch};
+pub use number::{Binary, Number, Unary};
+pub use plain::Plain;
+pub use real::{Nearest, Packet, Pair, Real, Scalar};

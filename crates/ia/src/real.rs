@@ -1,0 +1,567 @@
+//! Machine reals: what a float unit does, with marks for rounding.
+
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::Constant;
+
+/// Machine arithmetic on one float or on several at once.
+///
+/// The operators round to nearest. [`down`](Real::down) and [`up`](Real::up) are *marks*: applied to
+/// a result that has just been rounded to nearest, they give a value at most, or at least, as large
+/// as the exact result. The fused forms (`add_down` and so on) do both; hardware with embedded
+/// rounding overrides them.
+///
+/// In [`Number`](crate::Number) code written over a `Real`, every unmarked operation is exact.
+pub trait Real:
+    Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + 'static
+{
+    /// One lane of this real, with the same rounding.
+    type Scalar: Scalar;
+    /// Do the marks hold, so that a result may carry a proof?
+    const OUTWARD: bool;
+
+    /// The constant `c` in the context of `self` (lanes carry a token).
+    fn splat(self, c: Self::Scalar) -> Self;
+    /// The square root, to nearest.
+    fn sqrt(self) -> Self;
+    /// The absolute value: exact.
+    fn abs(self) -> Self;
+    /// The largest integer at most `self`: exact.
+    fn floor(self) -> Self;
+    /// The smaller operand; unspecified if one is NaN.
+    fn min(self, other: Self) -> Self;
+    /// The larger operand; unspecified if one is NaN.
+    fn max(self, other: Self) -> Self;
+    /// `x` where `self < other`, else `y` (so `y` where one is NaN).
+    fn select_lt(self, other: Self, x: Self, y: Self) -> Self;
+    /// A value at most as large as the exact result that was rounded to `self`.
+    fn down(self) -> Self;
+    /// A value at least as large as the exact result that was rounded to `self`.
+    fn up(self) -> Self;
+    /// Applies a scalar function to each lane.
+    fn map<const N: usize, const M: usize>(
+        x: [Self; N],
+        f: impl Fn([Self::Scalar; N]) -> [Self::Scalar; M],
+    ) -> [Self; M];
+
+    /// The smallest integer at least `self`: exact.
+    #[inline(always)]
+    fn ceil(self) -> Self {
+        -(-self).floor()
+    }
+    /// `self + o`, rounded down.
+    #[inline(always)]
+    fn add_down(self, o: Self) -> Self {
+        (self + o).down()
+    }
+    /// `self + o`, rounded up.
+    #[inline(always)]
+    fn add_up(self, o: Self) -> Self {
+        (self + o).up()
+    }
+    /// `self - o`, rounded down.
+    #[inline(always)]
+    fn sub_down(self, o: Self) -> Self {
+        (self - o).down()
+    }
+    /// `self - o`, rounded up.
+    #[inline(always)]
+    fn sub_up(self, o: Self) -> Self {
+        (self - o).up()
+    }
+    /// `self * o`, rounded down.
+    #[inline(always)]
+    fn mul_down(self, o: Self) -> Self {
+        (self * o).down()
+    }
+    /// `self * o`, rounded up.
+    #[inline(always)]
+    fn mul_up(self, o: Self) -> Self {
+        (self * o).up()
+    }
+    /// `self / o`, rounded down.
+    #[inline(always)]
+    fn div_down(self, o: Self) -> Self {
+        (self / o).down()
+    }
+    /// `self / o`, rounded up.
+    #[inline(always)]
+    fn div_up(self, o: Self) -> Self {
+        (self / o).up()
+    }
+    /// The square root, rounded down.
+    #[inline(always)]
+    fn sqrt_down(self) -> Self {
+        self.sqrt().down()
+    }
+    /// The square root, rounded up.
+    #[inline(always)]
+    fn sqrt_up(self) -> Self {
+        self.sqrt().up()
+    }
+    /// The least and the greatest of `a[i] * b[j]`, rounded outward: the interval product.
+    ///
+    /// The default rounds the extreme products, not each of the four.
+    #[inline(always)]
+    fn mul_bounds(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        let p = a[0] * b[0];
+        let q = a[0] * b[1];
+        let r = a[1] * b[0];
+        let s = a[1] * b[1];
+        [p.min(q).min(r.min(s)).down(), p.max(q).max(r.max(s)).up()]
+    }
+}
+
+/// A real that is a single float: code over it may branch.
+pub trait Scalar: Real<Scalar = Self> + PartialOrd {
+    /// Positive infinity.
+    const INFINITY: Self;
+    /// Not a number.
+    const NAN: Self;
+    /// Nearest value of this type.
+    fn from_f64(x: f64) -> Self;
+    /// The enclosure of a constant; for a nearest type, twice the nearest value.
+    fn enclose(c: &Constant) -> [Self; 2];
+    /// The nearest value to a constant.
+    fn nearest(c: &Constant) -> Self;
+    /// The value, exactly.
+    fn to_f64(self) -> f64;
+    /// `f(self)`, correctly rounded to nearest (`f32`) or within one unit in the last place (`f64`).
+    fn elementary(self, f: crate::Unary) -> Self;
+    /// `f(self, y)` for `atan2(self, y)`, `hypot` and `pow`, with the error of `elementary`.
+    fn elementary2(self, f: crate::Binary, y: Self) -> Self;
+    /// A lower bound of a result that carries the error of [`elementary`](Scalar::elementary).
+    fn elementary_down(self) -> Self;
+    /// An upper bound of a result that carries the error of [`elementary`](Scalar::elementary).
+    fn elementary_up(self) -> Self;
+    /// Is it NaN?
+    #[inline(always)]
+    fn is_nan(self) -> bool {
+        self.to_f64().is_nan()
+    }
+}
+
+/// A real whose lanes can be filled, read and masked. A mask has one bit a lane, lane 0 lowest.
+pub trait Packet: Real {
+    /// How many lanes, at most 64.
+    const LANES: usize;
+    /// A packet from a function of the lane, in the context of `self`.
+    fn from_fn(self, f: impl FnMut(usize) -> Self::Scalar) -> Self;
+    /// The value in lane `i`.
+    fn lane(self, i: usize) -> Self::Scalar;
+    /// Where is `self < other`?
+    fn lt(self, other: Self) -> u64;
+    /// Where is `self <= other`?
+    fn le(self, other: Self) -> u64;
+    /// `x` where the mask's bit is set, else `y`.
+    fn select(self, mask: u64, x: Self, y: Self) -> Self;
+}
+
+macro_rules! scalar {
+    ($float:ty) => {
+        impl Real for $float {
+            type Scalar = Self;
+            const OUTWARD: bool = true;
+
+            #[inline(always)]
+            fn splat(self, c: Self) -> Self {
+                c
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                <$float>::sqrt(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                <$float>::abs(self)
+            }
+            #[inline(always)]
+            fn floor(self) -> Self {
+                <$float>::floor(self)
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if self < other { self } else { other }
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self > other { self } else { other }
+            }
+            #[inline(always)]
+            fn select_lt(self, other: Self, x: Self, y: Self) -> Self {
+                if self < other { x } else { y }
+            }
+            #[inline(always)]
+            fn down(self) -> Self {
+                self.next_down()
+            }
+            #[inline(always)]
+            fn up(self) -> Self {
+                self.next_up()
+            }
+            #[inline(always)]
+            fn map<const N: usize, const M: usize>(
+                x: [Self; N],
+                f: impl Fn([Self; N]) -> [Self; M],
+            ) -> [Self; M] {
+                f(x)
+            }
+        }
+
+        impl Packet for $float {
+            const LANES: usize = 1;
+
+            #[inline(always)]
+            fn from_fn(self, mut f: impl FnMut(usize) -> Self) -> Self {
+                f(0)
+            }
+            #[inline(always)]
+            fn lane(self, _: usize) -> Self {
+                self
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> u64 {
+                u64::from(self < other)
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> u64 {
+                u64::from(self <= other)
+            }
+            #[inline(always)]
+            fn select(self, mask: u64, x: Self, y: Self) -> Self {
+                if mask & 1 == 1 { x } else { y }
+            }
+        }
+    };
+}
+scalar!(f32);
+scalar!(f64);
+
+/// The real `R` with marks that do nothing: arithmetic as the papers have it, which proves nothing.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Nearest<R>(pub R);
+
+macro_rules! forward_operators {
+    ([$($bound:tt)*] $type:ty, |$a:ident, $b:ident| $add:expr, $sub:expr, $mul:expr, $div:expr, |$c:ident| $neg:expr) => {
+        impl<$($bound)*> Add for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn add(self, o: Self) -> Self {
+                let ($a, $b) = (self, o);
+                $add
+            }
+        }
+        impl<$($bound)*> Sub for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn sub(self, o: Self) -> Self {
+                let ($a, $b) = (self, o);
+                $sub
+            }
+        }
+        impl<$($bound)*> Mul for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn mul(self, o: Self) -> Self {
+                let ($a, $b) = (self, o);
+                $mul
+            }
+        }
+        impl<$($bound)*> Div for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn div(self, o: Self) -> Self {
+                let ($a, $b) = (self, o);
+                $div
+            }
+        }
+        impl<$($bound)*> Neg for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                let $c = self;
+                $neg
+            }
+        }
+    };
+}
+pub(crate) use forward_operators;
+
+forward_operators!([R: Real] Nearest<R>, |a, b| Nearest(a.0 + b.0), Nearest(a.0 - b.0),
+    Nearest(a.0 * b.0), Nearest(a.0 / b.0), |c| Nearest(-c.0));
+
+impl<R: Real> Real for Nearest<R>
+where
+    Nearest<R::Scalar>: Scalar,
+{
+    type Scalar = Nearest<R::Scalar>;
+    const OUTWARD: bool = false;
+
+    #[inline(always)]
+    fn splat(self, c: Self::Scalar) -> Self {
+        Nearest(self.0.splat(c.0))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Nearest(self.0.sqrt())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Nearest(self.0.abs())
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Nearest(self.0.floor())
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Nearest(self.0.min(other.0))
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Nearest(self.0.max(other.0))
+    }
+    #[inline(always)]
+    fn select_lt(self, other: Self, x: Self, y: Self) -> Self {
+        Nearest(self.0.select_lt(other.0, x.0, y.0))
+    }
+    #[inline(always)]
+    fn down(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn up(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn map<const N: usize, const M: usize>(
+        x: [Self; N],
+        f: impl Fn([Self::Scalar; N]) -> [Self::Scalar; M],
+    ) -> [Self; M] {
+        R::map(
+            x.map(|x| x.0),
+            #[inline(always)]
+            |x| f(x.map(Nearest)).map(|y| y.0),
+        )
+        .map(Nearest)
+    }
+}
+
+impl<R: Packet> Packet for Nearest<R>
+where
+    Nearest<R::Scalar>: Scalar,
+{
+    const LANES: usize = R::LANES;
+
+    #[inline(always)]
+    fn from_fn(self, mut f: impl FnMut(usize) -> Self::Scalar) -> Self {
+        Nearest(self.0.from_fn(
+            #[inline(always)]
+            |i| f(i).0,
+        ))
+    }
+    #[inline(always)]
+    fn lane(self, i: usize) -> Self::Scalar {
+        Nearest(self.0.lane(i))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> u64 {
+        self.0.lt(other.0)
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> u64 {
+        self.0.le(other.0)
+    }
+    #[inline(always)]
+    fn select(self, mask: u64, x: Self, y: Self) -> Self {
+        Nearest(self.0.select(mask, x.0, y.0))
+    }
+}
+
+/// Two reals side by side: twice the lanes, so that one decoded operation feeds two vectors.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<R>(pub R, pub R);
+
+forward_operators!([R: Real] Pair<R>, |a, b| Pair(a.0 + b.0, a.1 + b.1), Pair(a.0 - b.0, a.1 - b.1),
+    Pair(a.0 * b.0, a.1 * b.1), Pair(a.0 / b.0, a.1 / b.1), |c| Pair(-c.0, -c.1));
+
+macro_rules! pairwise {
+    ($($name:ident($($o:ident),*);)*) => {$(
+        #[inline(always)]
+        fn $name(self, $($o: Self),*) -> Self {
+            Pair(self.0.$name($($o.0),*), self.1.$name($($o.1),*))
+        }
+    )*};
+}
+
+impl<R: Real> Real for Pair<R> {
+    type Scalar = R::Scalar;
+    const OUTWARD: bool = R::OUTWARD;
+
+    #[inline(always)]
+    fn splat(self, c: Self::Scalar) -> Self {
+        Pair(self.0.splat(c), self.1.splat(c))
+    }
+    pairwise! {
+        sqrt(); abs(); floor(); min(o); max(o); select_lt(o, x, y); down(); up(); ceil();
+        add_down(o); add_up(o); sub_down(o); sub_up(o); mul_down(o); mul_up(o); div_down(o);
+        div_up(o); sqrt_down(); sqrt_up();
+    }
+    #[inline(always)]
+    fn map<const N: usize, const M: usize>(
+        x: [Self; N],
+        f: impl Fn([Self::Scalar; N]) -> [Self::Scalar; M],
+    ) -> [Self; M] {
+        let first = R::map(x.map(|x| x.0), &f);
+        let second = R::map(x.map(|x| x.1), &f);
+        std::array::from_fn(|i| Pair(first[i], second[i]))
+    }
+    #[inline(always)]
+    fn mul_bounds(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        let p = R::mul_bounds([a[0].0, a[1].0], [b[0].0, b[1].0]);
+        let q = R::mul_bounds([a[0].1, a[1].1], [b[0].1, b[1].1]);
+        [Pair(p[0], q[0]), Pair(p[1], q[1])]
+    }
+}
+
+impl<R: Packet> Packet for Pair<R> {
+    const LANES: usize = 2 * R::LANES;
+
+    #[inline(always)]
+    fn from_fn(self, mut f: impl FnMut(usize) -> Self::Scalar) -> Self {
+        let first = self.0.from_fn(&mut f);
+        Pair(
+            first,
+            self.1.from_fn(
+                #[inline(always)]
+                |i| f(i + R::LANES),
+            ),
+        )
+    }
+    #[inline(always)]
+    fn lane(self, i: usize) -> Self::Scalar {
+        if i < R::LANES { self.0.lane(i) } else { self.1.lane(i - R::LANES) }
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> u64 {
+        self.0.lt(other.0) | self.1.lt(other.1) << R::LANES
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> u64 {
+        self.0.le(other.0) | self.1.le(other.1) << R::LANES
+    }
+    #[inline(always)]
+    fn select(self, mask: u64, x: Self, y: Self) -> Self {
+        Pair(self.0.select(mask, x.0, y.0), self.1.select(mask >> R::LANES, x.1, y.1))
+    }
+}
+
+impl Scalar for f32 {
+    const INFINITY: Self = f32::INFINITY;
+    const NAN: Self = f32::NAN;
+
+    fn from_f64(x: f64) -> Self {
+        x as f32
+    }
+    #[inline(always)]
+    fn enclose(c: &Constant) -> [Self; 2] {
+        c.f32
+    }
+    #[inline(always)]
+    fn nearest(c: &Constant) -> Self {
+        c.nearest_f32
+    }
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+    fn elementary(self, f: crate::Unary) -> Self {
+        crate::elementary::unary_f32(f, self)
+    }
+    fn elementary2(self, f: crate::Binary, y: Self) -> Self {
+        crate::elementary::binary_f32(f, self, y)
+    }
+    fn elementary_down(self) -> Self {
+        self.next_down()
+    }
+    fn elementary_up(self) -> Self {
+        self.next_up()
+    }
+}
+
+impl Scalar for f64 {
+    const INFINITY: Self = f64::INFINITY;
+    const NAN: Self = f64::NAN;
+
+    fn from_f64(x: f64) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn enclose(c: &Constant) -> [Self; 2] {
+        c.f64
+    }
+    #[inline(always)]
+    fn nearest(c: &Constant) -> Self {
+        c.nearest_f64
+    }
+    fn to_f64(self) -> f64 {
+        self
+    }
+    fn elementary(self, f: crate::Unary) -> Self {
+        crate::elementary::unary_f64(f, self)
+    }
+    fn elementary2(self, f: crate::Binary, y: Self) -> Self {
+        crate::elementary::binary_f64(f, self, y)
+    }
+    fn elementary_down(self) -> Self {
+        self.next_down().next_down()
+    }
+    fn elementary_up(self) -> Self {
+        self.next_up().next_up()
+    }
+}
+
+macro_rules! nearest_scalar {
+    ($float:ty) => {
+        impl Scalar for Nearest<$float> {
+            const INFINITY: Self = Nearest(<$float>::INFINITY);
+            const NAN: Self = Nearest(<$float>::NAN);
+
+            fn from_f64(x: f64) -> Self {
+                Nearest(<$float as Scalar>::from_f64(x))
+            }
+            #[inline(always)]
+            fn enclose(c: &Constant) -> [Self; 2] {
+                [Self::nearest(c); 2]
+            }
+            #[inline(always)]
+            fn nearest(c: &Constant) -> Self {
+                Nearest(<$float as Scalar>::nearest(c))
+            }
+            fn to_f64(self) -> f64 {
+                self.0.to_f64()
+            }
+            fn elementary(self, f: crate::Unary) -> Self {
+                Nearest(self.0.elementary(f))
+            }
+            fn elementary2(self, f: crate::Binary, y: Self) -> Self {
+                Nearest(self.0.elementary2(f, y.0))
+            }
+            fn elementary_down(self) -> Self {
+                self
+            }
+            fn elementary_up(self) -> Self {
+                self
+            }
+        }
+    };
+}
+nearest_scalar!(f32);
+nearest_scalar!(f64);

@@ -1,0 +1,1 @@
+//! The contract: rays, hits, scenes, methods; the catalogue of surfaces.

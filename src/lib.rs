@@ -1,0 +1,1 @@
+//! A research test bed for ray casting implicit surfaces.
