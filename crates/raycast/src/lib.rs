@@ -1,1 +1,28 @@
-//! The contract: rays, hits, scenes, methods; the catalogue of surfaces.
+//! The contract: what is cast at what, and what the answer means.
+//!
+//! - A [`Scene`] holds the geometry (a function, so far) and the [`Domain`] in which roots count.
+//! - [`Rays`] are a [`View`] (a camera and its pixels) or a [`RayBatch`].
+//! - A [`Method`] is an algorithm with its knobs; prepared for a scene it is an [`Intersector`].
+//! - [`Hits`] are the answers: a bracket on the ray, and a [`Certificate`] of what was proved.
+//! - The [`catalogue`] holds the surfaces of the papers.
+
+pub mod catalogue;
+pub mod domain;
+pub mod error;
+pub mod hit;
+pub mod knob;
+pub mod method;
+pub mod progress;
+pub mod ray;
+pub mod scene;
+pub mod view;
+
+pub use domain::{Clip, Domain};
+pub use error::{Error, KnobError, Unsupported};
+pub use hit::{Certificate, Hit, Hits, Request, Work};
+pub use knob::Knob;
+pub use method::{Intersector, Method, Report, Sampling};
+pub use progress::Progress;
+pub use ray::{Ray, RayBatch, Rays};
+pub use scene::{Geometry, Scene};
+pub use view::{Camera, Projection, View};

@@ -1,0 +1,5 @@
+//! Amp.
+
+/// Placeholder.
+#[derive(Clone, Debug)]
+pub struct Amp;

@@ -1,0 +1,5 @@
+//! Kmarch.
+
+/// Placeholder.
+#[derive(Clone, Debug)]
+pub struct Kmarch;

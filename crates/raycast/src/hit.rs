@@ -1,0 +1,212 @@
+//! Answers: brackets on rays, and what was proved about them.
+
+use std::fmt;
+use std::ops::{AddAssign, BitOr};
+
+use glam::Vec3;
+
+/// What is known of an answer: three independent bits.
+///
+/// | bits | name | meaning |
+/// |---|---|---|
+/// | HIT, FIRST, ROOT | `proven-hit` | the bracket holds a root and nothing before it is one |
+/// | HIT, FIRST | `possible-hit` | there is no root before the bracket; it may hold none |
+/// | HIT, ROOT | `root-hit` | the bracket holds a root; an earlier one may have been missed |
+/// | HIT | `hit` | something was found, nothing proved |
+/// | FIRST | `proven-miss` | there is no root in the whole range |
+/// | none | `miss` | nothing was found, nothing proved |
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Certificate(u8);
+
+impl Certificate {
+    /// Something was found.
+    pub const HIT: Self = Self(1);
+    /// Nothing before the bracket, or nothing at all without [`HIT`](Self::HIT), is proven.
+    pub const FIRST: Self = Self(2);
+    /// A root in the bracket is proven.
+    pub const ROOT: Self = Self(4);
+    /// HIT, FIRST and ROOT.
+    pub const PROVEN_HIT: Self = Self(7);
+    /// HIT and FIRST.
+    pub const POSSIBLE_HIT: Self = Self(3);
+    /// HIT and ROOT.
+    pub const ROOT_HIT: Self = Self(5);
+    /// FIRST alone.
+    pub const PROVEN_MISS: Self = Self(2);
+    /// No bit.
+    pub const MISS: Self = Self(0);
+
+    /// The six meaningful values, strongest first.
+    pub const ALL: [Self; 6] = [
+        Self::PROVEN_HIT,
+        Self::POSSIBLE_HIT,
+        Self::ROOT_HIT,
+        Self::HIT,
+        Self::PROVEN_MISS,
+        Self::MISS,
+    ];
+
+    /// Are all bits of `other` set?
+    pub fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// Was something found?
+    pub fn is_hit(self) -> bool {
+        self.contains(Self::HIT)
+    }
+
+    /// The name, as printed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PROVEN_HIT => "proven-hit",
+            Self::POSSIBLE_HIT => "possible-hit",
+            Self::ROOT_HIT => "root-hit",
+            Self::HIT => "hit",
+            Self::PROVEN_MISS => "proven-miss",
+            _ => "miss",
+        }
+    }
+
+    /// The bits as a number: HIT 1, FIRST 2, ROOT 4.
+    pub fn bits(self) -> u8 {
+        self.0
+    }
+}
+
+impl BitOr for Certificate {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+impl fmt::Display for Certificate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Evaluations by kind. One evaluation of a packet counts once for each active ray.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Function values at points.
+    pub points: u64,
+    /// Values with derivatives.
+    pub gradients: u64,
+    /// Interval enclosures.
+    pub intervals: u64,
+    /// Evaluations that gave NaN or infinity, and rays that are no rays.
+    pub nonfinite: u64,
+}
+
+impl AddAssign for Work {
+    fn add_assign(&mut self, o: Self) {
+        self.points += o.points;
+        self.gradients += o.gradients;
+        self.intervals += o.intervals;
+        self.nonfinite += o.nonfinite;
+    }
+}
+
+/// The answer for one ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Closed range of t that holds what was found; `[inf, inf]` for a miss.
+    pub bracket: [f64; 2],
+    /// What is known of it.
+    pub certificate: Certificate,
+    /// What it cost.
+    pub work: Work,
+}
+
+impl Hit {
+    /// A miss of the given certificate.
+    pub fn miss(certificate: Certificate, work: Work) -> Self {
+        Self { bracket: [f64::INFINITY; 2], certificate, work }
+    }
+
+    /// The middle of the bracket.
+    pub fn t(&self) -> f64 {
+        middle(self.bracket)
+    }
+}
+
+fn middle([lo, hi]: [f64; 2]) -> f64 {
+    if lo == hi { lo } else { 0.5 * (lo + hi) }
+}
+
+/// What a caller wants to know; a method computes nothing else.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Request {
+    /// The first root.
+    #[default]
+    First,
+    /// The first root and the unit normal there.
+    FirstWithNormal,
+    /// Whether there is any root: brackets need not be the first, nor narrow. For shadow rays.
+    Any,
+}
+
+/// The answers for a set of rays, in the order of the rays.
+#[derive(Clone, Debug)]
+pub struct Hits {
+    /// What was asked for.
+    pub request: Request,
+    /// Closed ranges of t; `[inf, inf]` for a miss.
+    pub bracket: Vec<[f64; 2]>,
+    /// What is known of each.
+    pub certificate: Vec<Certificate>,
+    /// The unit normal, along the function's gradient; zero for a miss, or where there is none.
+    /// Empty unless asked for.
+    pub normal: Vec<Vec3>,
+    /// What each answer cost.
+    pub work: Vec<Work>,
+}
+
+impl Hits {
+    /// Room for the answers to `rays` rays.
+    pub fn new(request: Request, rays: usize) -> Self {
+        let normals = if request == Request::FirstWithNormal { rays } else { 0 };
+        Self {
+            request,
+            bracket: vec![[f64::INFINITY; 2]; rays],
+            certificate: vec![Certificate::MISS; rays],
+            normal: vec![Vec3::ZERO; normals],
+            work: vec![Work::default(); rays],
+        }
+    }
+
+    /// How many answers.
+    pub fn len(&self) -> usize {
+        self.bracket.len()
+    }
+
+    /// Are there none?
+    pub fn is_empty(&self) -> bool {
+        self.bracket.is_empty()
+    }
+
+    /// Stores an answer.
+    pub fn set(&mut self, index: usize, hit: Hit) {
+        self.bracket[index] = hit.bracket;
+        self.certificate[index] = hit.certificate;
+        self.work[index] = hit.work;
+    }
+
+    /// An answer, without its normal.
+    pub fn get(&self, index: usize) -> Hit {
+        Hit {
+            bracket: self.bracket[index],
+            certificate: self.certificate[index],
+            work: self.work[index],
+        }
+    }
+
+    /// The work of all answers.
+    pub fn total_work(&self) -> Work {
+        let mut total = Work::default();
+        self.work.iter().for_each(|w| total += *w);
+        total
+    }
+}
