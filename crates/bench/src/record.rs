@@ -1,11 +1,15 @@
 //! Records: one row a run.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use std::{fs, io, iter};
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
-use zeroset_raycast::{Rays, Scene};
+use zeroset_raycast::{Camera, Domain, Projection, Rays, Scene, View, Work};
 
-use crate::{Comparison, Machine};
+use crate::machine::now;
+use crate::{Class, Comparison, Machine, Run, Tally, Verdict};
 
 /// What a comparison does not know of itself.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,7 +23,7 @@ pub struct Context {
 }
 
 /// One run as one row. Numbers are printed so that they read back exactly.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// When, in UTC: `2026-01-31T12:34:56Z`.
     pub date: String,
@@ -37,7 +41,7 @@ pub struct Record {
     pub scene: String,
     /// The equation.
     pub equation: String,
-    /// Parameters set away from their defaults: `a=0.3 b=1`.
+    /// Parameters set away from their defaults: `a=0.3; b=1`.
     pub parameters: String,
     /// The box's corners, and the ball's radius if there is one: `x0 y0 z0 x1 y1 z1 [r]`.
     pub domain: String,
@@ -49,7 +53,7 @@ pub struct Record {
     pub height: usize,
     /// The method's id.
     pub method: String,
-    /// Its knobs: `depth=10 rounding=outward`.
+    /// Its knobs: `depth=10; rounding=outward`.
     pub knobs: String,
     /// The bracket width asked for with the shared knob, in t.
     pub precision: Option<f64>,
@@ -65,7 +69,7 @@ pub struct Record {
     pub min_ms: Option<f64>,
     /// Longest time of a frame, milliseconds.
     pub max_ms: Option<f64>,
-    /// Time on the device in the last frame, milliseconds.
+    /// Time on the device in the median frame, milliseconds.
     pub device_ms: Option<f64>,
     /// Millions of rays a second in the median frame.
     pub mrays_per_second: Option<f64>,
@@ -109,9 +113,11 @@ pub struct Record {
     pub false_misses_transversal: usize,
     /// Misses where there is a touch.
     pub false_misses_tangential: usize,
-    /// Hits where there is no root.
+    /// Hits where there is no root, or none so early.
     pub false_hits: usize,
-    /// False hits where no neighbouring pixel has a root either.
+    /// Pixels without a root, nor one in any neighbouring pixel; known if all pixels were judged.
+    pub clear_misses: Option<usize>,
+    /// False hits among these.
     pub clear_false_hits: Option<usize>,
     /// Hits away from the first root.
     pub wrong_sheets: usize,
@@ -127,16 +133,16 @@ pub struct Record {
 
 /// A file of records that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
-#[error("{path}: {message}")]
+#[error("{}: {message}", path.display())]
 pub struct RecordError {
     /// The file.
-    pub path: String,
+    pub path: PathBuf,
     /// What is wrong.
     pub message: String,
 }
 
 impl Record {
-    /// One record for each run of a comparison.
+    /// One record for each run of a comparison of these rays, with the current date.
     pub fn of(
         comparison: &Comparison,
         scene: &Scene,
@@ -144,8 +150,141 @@ impl Record {
         machine: &Machine,
         context: &Context,
     ) -> Vec<Self> {
-        todo!("{comparison:?} {scene:?} {rays:?} {machine:?} {context:?}")
+        let mut shared = Self {
+            date: now(),
+            revision: context.revision.clone(),
+            cpu: machine.cpu.clone(),
+            isa: machine.isa.clone(),
+            os: machine.os.clone(),
+            threads: machine.threads,
+            scene: scene.id.clone(),
+            equation: context.equation.clone(),
+            parameters: pairs(scene.parameters.iter()),
+            domain: domain_text(&scene.domain),
+            width: rays.len(),
+            height: 1,
+            precision: context.precision,
+            ..Self::default()
+        };
+        if let Rays::View(view) = rays {
+            shared.camera = camera_text(&view.camera);
+            (shared.width, shared.height) = (view.width, view.height);
+        }
+        if let Some(truths) = &comparison.truths {
+            shared.judged_step = truths.sample.step;
+        }
+        comparison.runs.iter().map(|run| shared.clone().with_run(run)).collect()
     }
+
+    fn with_run(mut self, run: &Run) -> Self {
+        self.method = run.method.into();
+        self.knobs = pairs(run.knobs.iter().map(|k| (k.name, k.value.as_str())));
+        let outcome = match &run.outcome {
+            Ok(outcome) => outcome,
+            Err(error) => {
+                self.outcome = error.to_string();
+                self.judged_step = 0;
+                return self;
+            }
+        };
+        self.outcome = "ok".into();
+        self.prepare_ms = Some(milliseconds(outcome.prepare));
+        if let Some(times) = outcome.times {
+            self.runs = times.runs;
+            self.median_ms = Some(milliseconds(times.median));
+            self.min_ms = Some(milliseconds(times.min));
+            self.max_ms = Some(milliseconds(times.max));
+            self.device_ms = times.device.map(milliseconds);
+            self.mrays_per_second = Some(times.mrays_per_second(self.width * self.height));
+        }
+        let Work { points, gradients, intervals, nonfinite } = outcome.work;
+        (self.points, self.gradients, self.intervals) = (points, gradients, intervals);
+        self.nonfinite = nonfinite;
+        [
+            self.proven_hit,
+            self.possible_hit,
+            self.root_hit,
+            self.hit,
+            self.proven_miss,
+            self.miss,
+        ] = outcome.certificates;
+        if let Some(judgement) = &outcome.judgement {
+            self.set_tally(&judgement.tally);
+        }
+        self
+    }
+
+    fn set_tally(&mut self, tally: &Tally) {
+        self.judged = tally.judged;
+        [self.transversal, self.tangential, self.rootless, self.undecidable] =
+            Class::ALL.map(|class| tally.class(class));
+        self.correct_hits = tally.count(Verdict::CorrectHit);
+        self.correct_misses = tally.count(Verdict::CorrectMiss);
+        self.false_misses_transversal = tally.count_in(Class::Transversal, Verdict::FalseMiss);
+        self.false_misses_tangential = tally.count_in(Class::Tangential, Verdict::FalseMiss);
+        self.false_hits = tally.count(Verdict::FalseHit);
+        self.clear_misses = tally.clear_misses;
+        self.clear_false_hits = tally.clear_false_hits;
+        self.wrong_sheets = tally.count(Verdict::WrongSheet);
+        self.undecided = tally.count(Verdict::Undecided);
+        self.lies = tally.lies;
+        self.median_dt = tally.median_dt;
+        self.worst_dt = tally.worst_dt;
+    }
+
+    /// The domain, read back exactly; `None` if the column is damaged.
+    pub fn domain(&self) -> Option<Domain> {
+        let n = numbers(&self.domain)?;
+        let (corners, ball) = (n.get(..6)?, n.get(6).copied());
+        let domain = Domain::new(DVec3::from_slice(corners), DVec3::from_slice(&corners[3..]));
+        Some(Domain { ball, ..domain.ok()? })
+    }
+
+    /// The view, read back exactly; `None` for a batch, or if the column is damaged.
+    pub fn view(&self) -> Option<View> {
+        let (projection, rest) = self.camera.split_once(' ')?;
+        let n = numbers(rest)?;
+        let &[size, ..] = &n[..] else { return None };
+        let projection = match projection {
+            "perspective" => Projection::Perspective { fov: size },
+            "orthographic" => Projection::Orthographic { height: size },
+            _ => return None,
+        };
+        let [eye, at, up] = [1, 4, 7].map(|i| n.get(i..i + 3).map(DVec3::from_slice));
+        let camera = Camera { eye: eye?, at: at?, up: up?, projection };
+        Some(View::new(camera, self.width, self.height))
+    }
+}
+
+fn domain_text(domain: &Domain) -> String {
+    let corners = [domain.min, domain.max].map(|p| p.to_array());
+    text(corners.into_iter().flatten().chain(domain.ball))
+}
+
+fn camera_text(camera: &Camera) -> String {
+    let (projection, size) = match camera.projection {
+        Projection::Perspective { fov } => ("perspective", fov),
+        Projection::Orthographic { height } => ("orthographic", height),
+    };
+    let vectors = [camera.eye, camera.at, camera.up].map(|v| v.to_array());
+    format!("{projection} {}", text(iter::once(size).chain(vectors.into_iter().flatten())))
+}
+
+/// Numbers with as many digits as it takes to read them back exactly.
+fn text(numbers: impl Iterator<Item = f64>) -> String {
+    numbers.map(|x| format!("{x:?}")).collect::<Vec<_>>().join(" ")
+}
+
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split_whitespace().map(|word| word.parse().ok()).collect()
+}
+
+fn pairs<'a>(pairs: impl Iterator<Item = (&'a str, &'a str)>) -> String {
+    pairs.map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join("; ")
+}
+
+fn milliseconds(duration: Duration) -> f64 {
+    1e3 * duration.as_secs_f64()
 }
 
 /// Writes records as CSV, replacing the file at once.
@@ -153,7 +292,7 @@ impl Record {
 /// # Errors
 /// If the file cannot be written.
 pub fn write(path: &Path, records: &[Record]) -> Result<(), RecordError> {
-    todo!("{path:?} {records:?}")
+    replace(path, &[header(), rows(records)].concat())
 }
 
 /// Adds records to a CSV file, which is replaced at once; it need not exist.
@@ -161,7 +300,20 @@ pub fn write(path: &Path, records: &[Record]) -> Result<(), RecordError> {
 /// # Errors
 /// If the file is not one of records, or cannot be written.
 pub fn append(path: &Path, records: &[Record]) -> Result<(), RecordError> {
-    todo!("{path:?} {records:?}")
+    let old = match fs::read(path) {
+        Ok(old) if !old.is_empty() => old,
+        Ok(_) => return write(path, records),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return write(path, records),
+        Err(error) => return Err(failure(path, error)),
+    };
+    // The old rows are kept as they are, but only if they are rows of the same columns.
+    parse(path, &old)?;
+    let mut all = old;
+    if !all.ends_with(b"\n") {
+        all.push(b'\n');
+    }
+    all.extend(rows(records));
+    replace(path, &all)
 }
 
 /// Reads records from CSV.
@@ -169,10 +321,153 @@ pub fn append(path: &Path, records: &[Record]) -> Result<(), RecordError> {
 /// # Errors
 /// If the file cannot be read, or is not one of records.
 pub fn read(path: &Path) -> Result<Vec<Record>, RecordError> {
-    todo!("{path:?}")
+    let text = fs::read(path).map_err(|error| failure(path, error))?;
+    parse(path, &text)
 }
 
-/// Records as a JSON array.
+/// Records as a JSON array. Numbers beyond all bounds are null there.
 pub fn json(records: &[Record]) -> String {
-    todo!("{records:?}")
+    serde_json::to_string_pretty(records).expect("records are plain fields")
+}
+
+fn parse(path: &Path, text: &[u8]) -> Result<Vec<Record>, RecordError> {
+    let header = header();
+    let mut expected = csv::Reader::from_reader(&header[..]);
+    let mut reader = csv::Reader::from_reader(text);
+    let found = reader.headers().map_err(|error| failure(path, error))?;
+    if expected.headers().ok() != Some(found) {
+        let message = "its columns are not those of this version's records; \
+                       move it away or give another file";
+        return Err(failure(path, message));
+    }
+    reader.deserialize().map(|row| row.map_err(|error| failure(path, error))).collect()
+}
+
+/// The row of the columns' names.
+fn header() -> Vec<u8> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.serialize(Record::default()).expect("a record is flat");
+    let mut text = writer.into_inner().expect("memory takes what is left");
+    let end = text.iter().position(|byte| *byte == b'\n').map_or(0, |i| i + 1);
+    text.truncate(end);
+    text
+}
+
+fn rows(records: &[Record]) -> Vec<u8> {
+    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
+    for record in records {
+        writer.serialize(record).expect("records are flat");
+    }
+    writer.into_inner().expect("memory takes what is left")
+}
+
+/// Writes beside the file, then renames: a reader never sees half of it.
+fn replace(path: &Path, text: &[u8]) -> Result<(), RecordError> {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(format!(".{}.new", std::process::id()));
+    let beside = path.with_file_name(name);
+    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, path));
+    written.map_err(|error| {
+        // What is left of it helps nobody; the first error is the one to tell.
+        let _ = fs::remove_file(&beside);
+        failure(path, error)
+    })
+}
+
+fn failure(path: &Path, message: impl ToString) -> RecordError {
+    RecordError { path: path.into(), message: message.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn awkward() -> Record {
+        Record {
+            date: now(),
+            equation: "x^2 + y^2 = r^2; r = 1, \"quoted\",\nand on two lines".into(),
+            outcome: "ok".into(),
+            parameters: "r=(1 + sqrt(5))/2; w=0.5".into(),
+            precision: Some(f64::MIN_POSITIVE),
+            median_ms: Some(0.1 + 0.2),
+            min_ms: Some(1.0 / 3.0),
+            median_dt: Some(5e-324),
+            worst_dt: Some(f64::INFINITY),
+            clear_misses: Some(0),
+            points: u64::MAX,
+            ..Record::default()
+        }
+    }
+
+    #[test]
+    fn records_read_back_exactly() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("runs.csv");
+        let records = [awkward(), Record::default()];
+        write(&path, &records).unwrap();
+        assert_eq!(read(&path).unwrap(), records);
+        append(&path, &records[..1]).unwrap();
+        assert_eq!(read(&path).unwrap(), [awkward(), Record::default(), awkward()]);
+        write(&path, &[]).unwrap();
+        assert!(read(&path).unwrap().is_empty());
+        append(&path, &records).unwrap();
+        assert_eq!(read(&path).unwrap(), records);
+        // Nothing is left beside the file.
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn appending_starts_a_file_and_finishes_a_cut_line() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("runs.csv");
+        append(&path, &[awkward()]).unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        fs::write(&path, text.trim_end()).unwrap();
+        append(&path, &[awkward()]).unwrap();
+        assert_eq!(read(&path).unwrap(), [awkward(), awkward()]);
+    }
+
+    #[test]
+    fn other_files_are_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("notes.csv");
+        fs::write(&path, "name,age\nAda,36\n").unwrap();
+        let error = append(&path, &[awkward()]).unwrap_err();
+        assert!(error.to_string().contains("notes.csv: its columns"), "{error}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "name,age\nAda,36\n");
+        let missing = folder.path().join("none").join("runs.csv");
+        assert!(write(&missing, &[]).unwrap_err().to_string().contains("none"));
+        assert!(read(&missing).is_err());
+    }
+
+    #[test]
+    fn domains_and_cameras_read_back_exactly() {
+        let third = 1.0 / 3.0;
+        let mut domain = Domain::new(DVec3::new(-third, -1e-300, 0.1), DVec3::splat(2.0)).unwrap();
+        let mut record = Record { domain: domain_text(&domain), ..Record::default() };
+        assert_eq!(record.domain(), Some(domain));
+        domain.ball = Some(third.sqrt());
+        record.domain = domain_text(&domain);
+        assert_eq!(record.domain(), Some(domain));
+
+        let mut camera = Camera::facing(&domain);
+        for projection in [camera.projection, Projection::Orthographic { height: third }] {
+            camera.projection = projection;
+            (record.width, record.height) = (64, 48);
+            record.camera = camera_text(&camera);
+            assert_eq!(record.view(), Some(View::new(camera, 64, 48)));
+        }
+        assert_eq!(Record::default().view(), None);
+        assert_eq!(Record { camera: "perspective 1 2".into(), ..record }.view(), None);
+    }
+
+    #[test]
+    fn json_holds_every_column() {
+        let value: serde_json::Value = serde_json::from_str(&json(&[awkward()])).unwrap();
+        let row = value[0].as_object().unwrap();
+        let names = csv::Reader::from_reader(&header()[..]).headers().unwrap().len();
+        assert_eq!(row.len(), names);
+        assert_eq!(row["points"], u64::MAX);
+        assert_eq!(row["worst_dt"], serde_json::Value::Null);
+    }
 }
