@@ -33,6 +33,7 @@ fn every_fault_is_found() {
         (Fault::IgnoresRange, "brackets are in the domain and the range"),
         (Fault::TrustsBadRays, "what is no ray is counted and missed"),
         (Fault::LongNormals, "normals are unit vectors, or zero"),
+        (Fault::NormalsInwards, "normals are along the gradient"),
         (Fault::OnIndex, "an answer depends on its ray alone"),
         (Fault::OnCount, "an answer depends on its ray alone"),
         (Fault::OnThreads, "answers do not depend on threads"),

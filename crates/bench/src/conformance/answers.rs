@@ -1,6 +1,5 @@
 //! Answers: their form, their truth, and what they may depend on.
 
-use glam::Vec3;
 use rayon::ThreadPoolBuilder;
 use zeroset_raycast::{
     Certificate, Error, Hit, Hits, Intersector, Progress, Ray, RayBatch, Rays, Request,
@@ -150,24 +149,12 @@ impl Suite<'_> {
         }
     }
 
-    /// Normals are unit vectors or zero and change no answer; any root agrees with the first.
+    /// Normals are right, and any root agrees with the first.
     pub(super) fn check_requests(&mut self, intersector: &dyn Intersector) {
         let view = self.view();
         let rays = Rays::View(&view);
         let Some(first) = self.ask(intersector, rays, Request::First) else { return };
-        if let Some(hits) = self.ask(intersector, rays, Request::FirstWithNormal) {
-            let different = differences(&first, &hits, rays);
-            self.fail_any("normals change no answer", "a view", &different);
-            let bad: Vec<_> = (0..rays.len())
-                .filter(|&i| {
-                    let n = hits.normal[i];
-                    let is_unit = (n.length() - 1.0).abs() < 1e-5;
-                    n != Vec3::ZERO && !(is_unit && hits.certificate[i].is_hit())
-                })
-                .map(|i| format!("{:?}: {}", rays.get(i), hits.normal[i]))
-                .collect();
-            self.fail_any("normals are unit vectors, or zero", "a view", &bad);
-        }
+        self.check_normals(intersector, &first);
         if let Some(any) = self.ask(intersector, rays, Request::Any) {
             self.check_any(rays, &first, &any);
         }
@@ -244,7 +231,7 @@ impl Suite<'_> {
     }
 }
 
-fn differences(a: &Hits, b: &Hits, rays: Rays<'_>) -> Vec<String> {
+pub(super) fn differences(a: &Hits, b: &Hits, rays: Rays<'_>) -> Vec<String> {
     (0..rays.len()).filter_map(|i| difference(a, i, b, i, rays.get(i))).collect()
 }
 

@@ -5,13 +5,14 @@
 //! | names and knobs | ids and knobs are named; a knob's value sets it again, others are errors |
 //! | support | `supports` and `prepare` agree; parameters that do not exist are errors |
 //! | rays | an answer depends on its ray alone: not on order, number, kind of request, or threads |
-//! | answers | brackets are ordered and in the domain; normals are unit vectors |
+//! | answers | brackets are ordered and in the domain; normals are unit vectors along the gradient |
 //! | extremes | no rays, rays that are no rays, rays along axes and faces, long and short directions |
 //! | truth | certificates hold against the reference; most crossings are found |
 
 mod answers;
 mod cases;
 mod knobs;
+mod normals;
 mod suite;
 
 use std::fmt;

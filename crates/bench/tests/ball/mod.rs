@@ -12,7 +12,7 @@ use zeroset_raycast::{
 
 /// The sphere of radius 1 in a box of half side 1.5.
 pub(crate) fn scene() -> Scene {
-    let function = Function {};
+    let function = Function::parse("x^2 + y^2 + z^2 - 1").unwrap();
     let domain = Domain::new(DVec3::splat(-1.5), DVec3::splat(1.5)).unwrap();
     Scene::new("sphere", function, domain)
 }
@@ -99,6 +99,7 @@ pub(crate) enum Fault {
     KeepsBrackets,
     TrustsBadRays,
     LongNormals,
+    NormalsInwards,
     // Dependence.
     OnIndex,
     OnCount,
@@ -210,7 +211,11 @@ impl Intersector for Prepared {
             };
             hits.set(i, hit);
             if hits.request == Request::FirstWithNormal && hit.certificate.is_hit() {
-                let length = if self.fault == Fault::LongNormals { 1.01 } else { 1.0 };
+                let length = match self.fault {
+                    Fault::LongNormals => 1.01,
+                    Fault::NormalsInwards => -1.0,
+                    _ => 1.0,
+                };
                 hits.normal[i] = length * ray.at(hit.t()).normalize_or_zero().as_vec3();
             }
         }
