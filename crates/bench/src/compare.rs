@@ -1,16 +1,17 @@
 //! Methods on a scene and rays, judged and timed.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use zeroset_raycast::{Error, Hits, Knob, Method, Progress, Rays, Request, Scene, Work};
+use zeroset_raycast::{
+    Certificate, Error, Hits, Knob, Method, Progress, Rays, Request, Scene, Work,
+};
 
-use crate::{Judgement, Oracle, Tolerance, Truths};
+use crate::{Judgement, Oracle, Sample, Tolerance, Truths, judge, truth};
 
 /// How to compare.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// What is asked of the methods; only answers to [`Request::First`] and
-    /// [`Request::FirstWithNormal`] are judged.
+    /// What is asked of the methods; answers to [`Request::Any`] are not judged.
     pub request: Request,
     /// Timed frames a method.
     pub runs: usize,
@@ -43,9 +44,9 @@ pub enum Stage {
 /// Methods compared on a scene and rays.
 #[derive(Debug)]
 pub struct Comparison {
-    /// What is known of the rays; `None` if nothing was judged, and `no_truth` says why.
+    /// What is known of the rays; `None` if nothing was judged.
     pub truths: Option<Truths>,
-    /// Why nothing was judged.
+    /// Why the reference has no answer, if it was asked and has none.
     pub no_truth: Option<Error>,
     /// One a method, in order; methods that were not reached are left out.
     pub runs: Vec<Run>,
@@ -77,10 +78,8 @@ pub struct Outcome {
     pub judgement: Option<Judgement>,
     /// How long preparing took.
     pub prepare: Duration,
-    /// How long frames took; `None` if interrupted before one was timed.
+    /// How long frames took; `None` if none was timed.
     pub times: Option<Times>,
-    /// Time on the device in the median frame, for methods that have one.
-    pub device_time: Option<Duration>,
 }
 
 /// Times of equal frames.
@@ -94,18 +93,42 @@ pub struct Times {
     pub min: Duration,
     /// The longest.
     pub max: Duration,
+    /// Time on the device in the median frame, for methods that have one.
+    pub device: Option<Duration>,
 }
 
 impl Times {
+    /// The times of frames and of the device in them; `None` if there are none.
+    fn of(frames: &mut [(Duration, Option<Duration>)]) -> Option<Self> {
+        frames.sort();
+        let (median, device) = *frames.get(frames.len() / 2)?;
+        Some(Self {
+            runs: frames.len(),
+            median,
+            min: frames[0].0,
+            max: frames[frames.len() - 1].0,
+            device,
+        })
+    }
+
     /// Millions of rays a second, in the median frame.
     pub fn mrays_per_second(&self, rays: usize) -> f64 {
         rays as f64 / self.median.as_secs_f64() / 1e6
     }
 }
 
-/// Runs each method on the scene's rays: prepared, judged, then timed. `watch` is told the stage and
-/// how much of it is done, from 0 to 1. A method that fails has its error in its [`Run`]; if
-/// `progress` is asked to stop, what is finished is returned.
+impl Outcome {
+    /// How many rays hit.
+    pub fn hit_count(&self) -> usize {
+        self.hits.certificate.iter().filter(|c| c.is_hit()).count()
+    }
+}
+
+/// Runs each method on the scene's rays: prepared, judged against the reference, then timed.
+///
+/// `watch` is told the stage and how much of it is done, from 0 to 1. A method that fails has its
+/// error in its [`Run`]. If `progress` is asked to stop, what is finished is returned. Work is spread
+/// over the current pool of threads.
 pub fn compare(
     scene: &Scene,
     rays: Rays<'_>,
@@ -114,13 +137,12 @@ pub fn compare(
     progress: &Progress,
     watch: &mut dyn FnMut(Stage, f64),
 ) -> Comparison {
-    watch(Stage::Classify, 0.0);
-    todo!("{scene:?} {rays:?} {methods:?} {options:?} {progress:?}")
+    compare_with(&|| truth::reference(scene), scene, rays, methods, options, progress, watch)
 }
 
-/// As [`compare`], judged by another oracle than the reference.
+/// As [`compare`], but judged against the oracle that `oracle` gives.
 pub fn compare_with(
-    oracle: &dyn Oracle,
+    oracle: &dyn Fn() -> Result<Box<dyn Oracle>, Error>,
     scene: &Scene,
     rays: Rays<'_>,
     methods: &[Box<dyn Method>],
@@ -128,6 +150,117 @@ pub fn compare_with(
     progress: &Progress,
     watch: &mut dyn FnMut(Stage, f64),
 ) -> Comparison {
-    let _ = oracle;
-    compare(scene, rays, methods, options, progress, watch)
+    let mut comparison =
+        Comparison { truths: None, no_truth: None, runs: Vec::new(), interrupted: false };
+    let is_judged = options.request != Request::Any && !options.judging.is_zero();
+    if is_judged {
+        let truths = oracle()
+            .and_then(|oracle| classify(oracle.as_ref(), rays, options.judging, progress, watch));
+        match truths {
+            Ok(truths) => comparison.truths = Some(truths),
+            Err(error) => comparison.no_truth = Some(error),
+        }
+    }
+    let tolerance = options.tolerance.unwrap_or(match rays {
+        Rays::View(_) => Tolerance::Footprint,
+        Rays::Batch(_) => Tolerance::Distance(1e-3 * scene.domain.longest_side()),
+    });
+    for method in methods {
+        if progress.is_stopped() {
+            break;
+        }
+        let judge = |hits: &Hits| {
+            comparison.truths.as_ref().map(|truths| judge(rays, hits, truths, tolerance))
+        };
+        let outcome = run(method.as_ref(), scene, rays, options, &judge, progress, watch);
+        if matches!(outcome, Err(Error::Interrupted)) {
+            break;
+        }
+        comparison.runs.push(Run { method: method.id(), knobs: method.knobs(), outcome });
+    }
+    comparison.interrupted = progress.is_stopped();
+    comparison
+}
+
+/// The truth for all rays if that is expected to take no longer than `budget`, else for an even
+/// sample that is.
+fn classify(
+    oracle: &dyn Oracle,
+    rays: Rays<'_>,
+    budget: Duration,
+    progress: &Progress,
+    watch: &mut dyn FnMut(Stage, f64),
+) -> Result<Truths, Error> {
+    /// Rays whose time is extrapolated to all.
+    const PROBE: usize = 256;
+    /// Rays at a time, so that progress is seen.
+    const CHUNK: usize = 1024;
+    watch(Stage::Classify, 0.0);
+    let probe = Sample::every(step(rays, PROBE), rays);
+    let start = Instant::now();
+    let truths = oracle.classify(rays, &probe.indices, progress)?;
+    if probe.is_all() {
+        watch(Stage::Classify, 1.0);
+        return Ok(Truths { sample: probe, truths });
+    }
+    let time_a_ray = start.elapsed().as_secs_f64() / probe.indices.len() as f64;
+    // A float beyond the range of integers becomes the greatest integer.
+    let affordable = (budget.as_secs_f64() / time_a_ray) as usize;
+    let sample = Sample::every(step(rays, affordable.max(1)), rays);
+    let mut truths = Vec::with_capacity(sample.indices.len());
+    for chunk in sample.indices.chunks(CHUNK) {
+        truths.extend(oracle.classify(rays, chunk, progress)?);
+        watch(Stage::Classify, truths.len() as f64 / sample.indices.len() as f64);
+    }
+    Ok(Truths { sample, truths })
+}
+
+/// The least step at which an even sample has about `wanted` rays.
+fn step(rays: Rays<'_>, wanted: usize) -> usize {
+    let ratio = rays.len() as f64 / wanted as f64;
+    let step = match rays {
+        Rays::View(_) => ratio.sqrt(),
+        Rays::Batch(_) => ratio,
+    };
+    step.ceil().max(1.0) as usize
+}
+
+/// One method: prepared, judged, timed.
+fn run(
+    method: &dyn Method,
+    scene: &Scene,
+    rays: Rays<'_>,
+    options: &Options,
+    judge: &dyn Fn(&Hits) -> Option<Judgement>,
+    progress: &Progress,
+    watch: &mut dyn FnMut(Stage, f64),
+) -> Result<Outcome, Error> {
+    let id = method.id();
+    watch(Stage::Prepare(id), 0.0);
+    let start = Instant::now();
+    let intersector = method.prepare(scene)?;
+    let prepare = start.elapsed();
+
+    watch(Stage::Answer(id), 0.0);
+    let mut hits = Hits::new(options.request, rays.len());
+    let report = intersector.intersect(rays, &mut hits, progress)?;
+    let judgement = judge(&hits);
+
+    let mut frames = Vec::with_capacity(options.runs);
+    let mut again = Hits::new(options.request, rays.len());
+    for i in 0..options.runs {
+        watch(Stage::Time(id), i as f64 / options.runs as f64);
+        let start = Instant::now();
+        match intersector.intersect(rays, &mut again, progress) {
+            Ok(report) => frames.push((start.elapsed(), report.device_time)),
+            // What was judged and timed so far is worth keeping.
+            Err(Error::Interrupted) => break,
+            Err(error) => return Err(error),
+        }
+    }
+    watch(Stage::Time(id), 1.0);
+    let certificates =
+        Certificate::ALL.map(|c| hits.certificate.iter().filter(|given| **given == c).count());
+    let times = Times::of(&mut frames);
+    Ok(Outcome { hits, work: report.work, certificates, judgement, prepare, times })
 }

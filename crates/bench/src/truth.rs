@@ -73,12 +73,13 @@ impl Sample {
     /// # Panics
     /// If `step` is 0.
     pub fn every(step: usize, rays: Rays<'_>) -> Self {
+        // From the middle of the first step, so that no border is preferred.
+        let places = |n: usize| (n.min(step / 2 + 1).saturating_sub(1)..n).step_by(step);
         let indices = match rays {
-            Rays::View(view) => (0..view.height)
-                .step_by(step)
-                .flat_map(|row| (0..view.width).step_by(step).map(move |c| row * view.width + c))
+            Rays::View(view) => places(view.height)
+                .flat_map(|row| places(view.width).map(move |column| row * view.width + column))
                 .collect(),
-            Rays::Batch(batch) => (0..batch.rays.len()).step_by(step).collect(),
+            Rays::Batch(batch) => places(batch.rays.len()).collect(),
         };
         Self { indices, step, rays: rays.len() }
     }
@@ -95,10 +96,28 @@ impl Truths {
         Class::ALL.map(|class| self.truths.iter().filter(|t| t.class == class).count())
     }
 
-    /// Of a view, how many pixels are clear misses: no root there nor in any of the eight
-    /// neighbours. `None` for batches, and where only a sample was classified.
+    /// Of a view, the pixels that are clear misses: no root there, nor in any of the eight
+    /// neighbours. Border pixels are not: what lies beyond is not known. `None` for batches, and
+    /// where only a sample was classified.
     pub fn clear_misses(&self, rays: Rays<'_>) -> Option<Vec<usize>> {
-        todo!("{rays:?}")
+        let Rays::View(view) = rays else { return None };
+        if !self.sample.is_all() {
+            return None;
+        }
+        let (width, height) = (view.width, view.height);
+        let is_none =
+            |column: usize, row: usize| self.truths[row * width + column].class == Class::None;
+        let mut clear = Vec::new();
+        for row in 1..height.saturating_sub(1) {
+            for column in 1..width.saturating_sub(1) {
+                let mut block = (row - 1..=row + 1)
+                    .flat_map(|r| (column - 1..=column + 1).map(move |c| (c, r)));
+                if block.all(|(c, r)| is_none(c, r)) {
+                    clear.push(row * width + column);
+                }
+            }
+        }
+        Some(clear)
     }
 }
 
@@ -114,5 +133,45 @@ impl Class {
             Self::None => "none",
             Self::Undecidable => "undecidable",
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use zeroset_raycast::{Camera, Domain, RayBatch, View};
+
+    fn view(width: usize, height: usize) -> View {
+        let domain = Domain::new(DVec3::splat(-1.0), DVec3::splat(1.0)).unwrap();
+        View::new(Camera::facing(&domain), width, height)
+    }
+
+    #[test]
+    fn samples_are_even_and_never_empty() {
+        let view = view(7, 5);
+        assert!(Sample::every(1, Rays::View(&view)).is_all());
+        let third = Sample::every(3, Rays::View(&view));
+        assert_eq!(third.indices, [8, 11, 29, 32]);
+        assert!(!third.is_all());
+        assert_eq!(Sample::every(1000, Rays::View(&view)).indices, [34]);
+        let empty = RayBatch::new(Vec::new());
+        assert!(Sample::every(4, Rays::Batch(&empty)).indices.is_empty());
+    }
+
+    #[test]
+    fn a_clear_miss_has_eight_neighbours_without_roots() {
+        let view = view(6, 5);
+        let rays = Rays::View(&view);
+        let none = Truth { class: Class::None, bracket: [f64::INFINITY; 2] };
+        let mut truths = Truths { sample: Sample::every(1, rays), truths: vec![none; 30] };
+        assert_eq!(truths.clear_misses(rays).unwrap().len(), 4 * 3);
+        // A root at column 1, row 1 spoils its neighbours; what is not decided spoils too.
+        truths.truths[7] = Truth { class: Class::Tangential, bracket: [1.0, 1.0] };
+        truths.truths[29] = Truth { class: Class::Undecidable, bracket: [1.0, 1.0] };
+        assert_eq!(truths.clear_misses(rays).unwrap(), [9, 10, 15, 16, 19, 20, 21]);
+        assert_eq!(truths.classes(), [0, 1, 28, 1]);
+        truths.sample = Sample::every(2, rays);
+        assert_eq!(truths.clear_misses(rays), None);
     }
 }
