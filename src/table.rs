@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use comfy_table::{CellAlignment, Table, presets};
-use zeroset::bench::{Comparison, Outcome, Run, Tally, Truths, Verdict};
+use zeroset::bench::{Class, Comparison, Outcome, Run, Truths, Verdict};
 use zeroset::raycast::Certificate;
 
 use crate::numbers::{percent, short};
@@ -134,7 +134,7 @@ fn judged(outcomes: &Rows<'_>) -> String {
         let distance = |dt: Option<f64>| dt.map_or("-".into(), |dt| format!("{dt:.2e}"));
         table.add_row([
             run.method.to_owned(),
-            with_part(tally.count(Verdict::FalseMiss), Some(touching_misses(tally))),
+            with_part(tally.count(Verdict::FalseMiss), Some(tally.count_in(Class::Tangential, Verdict::FalseMiss))),
             with_part(tally.count(Verdict::FalseHit), tally.clear_false_hits),
             tally.count(Verdict::WrongSheet).to_string(),
             tally.count(Verdict::Undecided).to_string(),
