@@ -53,7 +53,11 @@ pub(crate) fn parse(text: &str) -> Result<CameraText, String> {
     let mut camera = CameraText::default();
     for (key, value) in assignments(text)? {
         let twice = |is_set: bool| {
-            if is_set { Err(format!("{key} is given twice, or both fov and ortho")) } else { Ok(()) }
+            if is_set {
+                Err(format!("{key} is given twice, or both fov and ortho"))
+            } else {
+                Ok(())
+            }
         };
         match key {
             "eye" => twice(camera.eye.replace(vector(key, &value)?).is_some())?,

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use zeroset::bench::{self, Comparison, Context, Machine, Options, Record, Registry, Stage, record};
+use zeroset::bench::{
+    self, Comparison, Context, Machine, Options, Record, Registry, Stage, record,
+};
 use zeroset::raycast::{Method, Rays, Request, Scene, View};
 use zeroset::shade::{self, Picture, ViewKind, sheet};
 

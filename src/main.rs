@@ -34,10 +34,10 @@ struct CommandLine {
     command: Command,
     /// Worker threads [default: one a core]
     #[arg(long, global = true, value_name = "N", value_parser = options::threads)]
-    #[arg(allow_hyphen_values = true)]
+    #[arg(allow_hyphen_values = true, display_order = 900)]
     threads: Option<usize>,
     /// Seed for methods that draw random numbers; none does so far
-    #[arg(long, global = true, value_name = "N", default_value_t = 0)]
+    #[arg(long, global = true, value_name = "N", default_value_t = 0, display_order = 901)]
     seed: u64,
 }
 

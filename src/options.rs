@@ -4,6 +4,7 @@ use clap::Args;
 use glam::DVec3;
 use zeroset::bench::Registry;
 use zeroset::raycast::{Domain, Method, Scene, View};
+use zeroset::shade::ViewKind;
 
 use crate::camera::{self, CameraText};
 use crate::failure::Failure;
@@ -159,6 +160,11 @@ fn setting(text: &str) -> Result<Setting, String> {
         }
         _ => Err("give METHOD.KNOB=VALUE, such as kmarch.depth=12".into()),
     }
+}
+
+/// Reads what a picture shows.
+pub(crate) fn view_kind(text: &str) -> Result<ViewKind, String> {
+    ViewKind::from_name(text).map_err(|e| e.to_string())
 }
 
 /// Reads a number of threads.

@@ -80,7 +80,8 @@ mod tests {
     #[test]
     fn columns_are_found_by_name_and_rounded_once() {
         // 1 + 2^-24 + 2^-60 is above the middle of two floats, but a double would lose the last bit.
-        let text = "dz,note,ox,oy,oz,dx,dy\r\n 0.1 ,hello, 1.00000005960464477625783128, 2,3,0,-0\r\n";
+        let text =
+            "dz,note,ox,oy,oz,dx,dy\r\n 0.1 ,hello, 1.00000005960464477625783128, 2,3,0,-0\r\n";
         let rays = read(text.as_bytes()).unwrap();
         let x = 1.0_f32.next_up();
         assert_eq!(rays, [Ray::new(Vec3::new(x, 2.0, 3.0), Vec3::new(0.0, 0.0, 0.1))]);

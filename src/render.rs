@@ -77,8 +77,8 @@ impl Render {
             ViewKind::Error => Some(against_reference(&scene, &view, &hits, &progress)?),
             _ => None,
         };
-        let picture = shade::picture(self.view, &view, &hits, agreement.as_deref())
-            .map_err(Failure::work)?;
+        let picture =
+            shade::picture(self.view, &view, &hits, agreement.as_deref()).map_err(Failure::work)?;
         if is_exr(&file) {
             shade::exr::save(&file, &view, &hits, Some(&picture)).map_err(Failure::work)?;
         } else {

@@ -59,7 +59,13 @@ type Rows<'a> = [(&'a Run, &'a Outcome)];
 
 fn cost(outcomes: &Rows<'_>, rays: usize) -> String {
     let mut table = table(&[
-        "method", "prepare ms", "frame ms", "min..max ms", "Mrays/s", "points", "gradients",
+        "method",
+        "prepare ms",
+        "frame ms",
+        "min..max ms",
+        "Mrays/s",
+        "points",
+        "gradients",
         "intervals",
     ]);
     for (run, outcome) in outcomes {
@@ -125,7 +131,13 @@ fn ordinal(n: usize) -> String {
 
 fn judged(outcomes: &Rows<'_>) -> String {
     let mut table = table(&[
-        "method", "false misses", "false hits", "wrong sheets", "undecided", "lies", "median |dt|",
+        "method",
+        "false misses",
+        "false hits",
+        "wrong sheets",
+        "undecided",
+        "lies",
+        "median |dt|",
         "worst |dt|",
     ]);
     for (run, outcome) in outcomes {
@@ -134,7 +146,10 @@ fn judged(outcomes: &Rows<'_>) -> String {
         let distance = |dt: Option<f64>| dt.map_or("-".into(), |dt| format!("{dt:.2e}"));
         table.add_row([
             run.method.to_owned(),
-            with_part(tally.count(Verdict::FalseMiss), Some(tally.count_in(Class::Tangential, Verdict::FalseMiss))),
+            with_part(
+                tally.count(Verdict::FalseMiss),
+                Some(tally.count_in(Class::Tangential, Verdict::FalseMiss)),
+            ),
             with_part(tally.count(Verdict::FalseHit), tally.clear_false_hits),
             tally.count(Verdict::WrongSheet).to_string(),
             tally.count(Verdict::Undecided).to_string(),

@@ -1,12 +1,14 @@
 //! `zeroset trace`: a batch of rays from a script, answered one a row.
 
+use std::fmt::Write;
 use std::fs::File;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use zeroset::bench;
-use zeroset::raycast::{Hits, RayBatch, Rays, Request};
+use zeroset::raycast::{Hits, Ray, RayBatch, Rays, Request};
+use zeroset::shade;
 
 use crate::failure::Failure;
 use crate::options::{MethodOptions, SceneOptions};
@@ -64,23 +66,18 @@ impl Trace {
         Bar::new().follow(&self.method, rays.len(), &progress, || {
             intersector.intersect(rays, &mut hits, &progress)
         })?;
+        let text = table(&hits);
         if is_dash(&self.out) {
-            let mut text = Vec::new();
-            write(&hits, &mut text).map_err(Failure::work)?;
-            return output::print(&text);
+            output::print(text.as_bytes())
+        } else {
+            shade::write_atomically(&self.out, text.as_bytes()).map_err(Failure::work)
         }
-        output::replace(&self.out, |path| {
-            let mut file = io::BufWriter::new(File::create(path)?);
-            write(&hits, &mut file)?;
-            file.flush()
-        })
     }
 
-    fn read(&self) -> Result<Vec<zeroset::raycast::Ray>, Failure> {
+    fn read(&self) -> Result<Vec<Ray>, Failure> {
         if is_dash(&self.rays) {
-            return ray_file::read(io::stdin().lock()).map_err(|why| {
-                Failure::work(format!("standard input, {why}"))
-            });
+            return ray_file::read(io::stdin().lock())
+                .map_err(|why| Failure::work(format!("standard input, {why}")));
         }
         let name = self.rays.display();
         let file = File::open(&self.rays)
@@ -93,19 +90,20 @@ fn is_dash(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Writes one row an answer.
-fn write(hits: &Hits, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "ray,certificate,t_lo,t_hi,nx,ny,nz,points,gradients,intervals")?;
+/// One row an answer.
+fn table(hits: &Hits) -> String {
+    let mut text = String::from("ray,certificate,t_lo,t_hi,nx,ny,nz,points,gradients,intervals\n");
     for ray in 0..hits.len() {
         let hit = hits.get(ray);
         let [lo, hi] = hit.bracket;
         let n = hits.normal[ray];
         let work = hit.work;
         writeln!(
-            out,
+            text,
             "{ray},{},{lo:?},{hi:?},{:?},{:?},{:?},{},{},{}",
             hit.certificate, n.x, n.y, n.z, work.points, work.gradients, work.intervals
-        )?;
+        )
+        .expect("a string takes all");
     }
-    Ok(())
+    text
 }
