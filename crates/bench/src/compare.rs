@@ -28,6 +28,12 @@ impl Default for Options {
     }
 }
 
+impl Options {
+    fn is_judged(&self) -> bool {
+        self.request != Request::Any && !self.judging.is_zero()
+    }
+}
+
 /// What is being done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
@@ -137,12 +143,16 @@ pub fn compare(
     progress: &Progress,
     watch: &mut dyn FnMut(Stage, f64),
 ) -> Comparison {
-    compare_with(&|| truth::reference(scene), scene, rays, methods, options, progress, watch)
+    let truths = options.is_judged().then(|| {
+        let oracle = truth::reference(scene)?;
+        classify(oracle.as_ref(), rays, options.judging, progress, watch)
+    });
+    run_all(truths, scene, rays, methods, options, progress, watch)
 }
 
-/// As [`compare`], but judged against the oracle that `oracle` gives.
+/// As [`compare`], but judged against another oracle than the reference.
 pub fn compare_with(
-    oracle: &dyn Fn() -> Result<Box<dyn Oracle>, Error>,
+    oracle: &dyn Oracle,
     scene: &Scene,
     rays: Rays<'_>,
     methods: &[Box<dyn Method>],
@@ -150,17 +160,26 @@ pub fn compare_with(
     progress: &Progress,
     watch: &mut dyn FnMut(Stage, f64),
 ) -> Comparison {
-    let mut comparison =
-        Comparison { truths: None, no_truth: None, runs: Vec::new(), interrupted: false };
-    let is_judged = options.request != Request::Any && !options.judging.is_zero();
-    if is_judged {
-        let truths = oracle()
-            .and_then(|oracle| classify(oracle.as_ref(), rays, options.judging, progress, watch));
-        match truths {
-            Ok(truths) => comparison.truths = Some(truths),
-            Err(error) => comparison.no_truth = Some(error),
-        }
-    }
+    let truths =
+        options.is_judged().then(|| classify(oracle, rays, options.judging, progress, watch));
+    run_all(truths, scene, rays, methods, options, progress, watch)
+}
+
+/// Each method, judged against the truths if there are any.
+fn run_all(
+    truths: Option<Result<Truths, Error>>,
+    scene: &Scene,
+    rays: Rays<'_>,
+    methods: &[Box<dyn Method>],
+    options: &Options,
+    progress: &Progress,
+    watch: &mut dyn FnMut(Stage, f64),
+) -> Comparison {
+    let (truths, no_truth) = match truths.transpose() {
+        Ok(truths) => (truths, None),
+        Err(error) => (None, Some(error)),
+    };
+    let mut runs = Vec::new();
     let tolerance = options.tolerance.unwrap_or(match rays {
         Rays::View(_) => Tolerance::Footprint,
         Rays::Batch(_) => Tolerance::Distance(1e-3 * scene.domain.longest_side()),
@@ -169,17 +188,15 @@ pub fn compare_with(
         if progress.is_stopped() {
             break;
         }
-        let judge = |hits: &Hits| {
-            comparison.truths.as_ref().map(|truths| judge(rays, hits, truths, tolerance))
-        };
+        let judge =
+            |hits: &Hits| truths.as_ref().map(|truths| judge(rays, hits, truths, tolerance));
         let outcome = run(method.as_ref(), scene, rays, options, &judge, progress, watch);
         if matches!(outcome, Err(Error::Interrupted)) {
             break;
         }
-        comparison.runs.push(Run { method: method.id(), knobs: method.knobs(), outcome });
+        runs.push(Run { method: method.id(), knobs: method.knobs(), outcome });
     }
-    comparison.interrupted = progress.is_stopped();
-    comparison
+    Comparison { truths, no_truth, runs, interrupted: progress.is_stopped() }
 }
 
 /// The truth for all rays if that is expected to take no longer than `budget`, else for an even

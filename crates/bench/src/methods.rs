@@ -8,7 +8,7 @@ use zeroset_raycast::Method;
 pub fn methods() -> Vec<Box<dyn Method>> {
     vec![
         // Box::new(zeroset_cpu::Amp::default()),
-        // Box::new(zeroset_cpu::Kmarch::default()),
+        Box::new(zeroset_cpu::Kmarch::default()),
         // Box::new(zeroset_cpu::Reference::default()),
     ]
 }
@@ -103,6 +103,47 @@ impl fmt::Display for UnknownMethod {
         if let Some(near) = self.near {
             write!(f, "did you mean {near}? ")?;
         }
-        write!(f, "There are {}", self.known.join(", "))
+        write!(f, "the methods are {}", self.known.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_are_distinct_and_found() {
+        let registry = Registry::standard();
+        let mut ids = registry.ids();
+        for id in &ids {
+            assert_eq!(registry.method(id).unwrap().id(), *id);
+            assert_eq!(method(id).unwrap().id(), *id);
+        }
+        ids.sort_unstable();
+        ids.dedup();
+        assert_eq!(ids.len(), methods().len());
+    }
+
+    #[test]
+    fn a_method_replaces_one_of_its_id() {
+        let count = methods().len();
+        let first = methods().swap_remove(0);
+        let registry = Registry::standard().with(first.boxed());
+        assert_eq!(registry.ids().len(), count);
+        assert_eq!(Registry::empty().with(first).ids().len(), 1);
+    }
+
+    #[test]
+    fn near_names_are_suggested() {
+        let known = ["amp-sign", "kmarch", "reference"];
+        let near = |id| nearest(id, &known);
+        assert_eq!(near("amp"), Some("amp-sign"));
+        assert_eq!(near("AMP_sign"), Some("amp-sign"));
+        assert_eq!(near("k-march"), Some("kmarch"));
+        assert_eq!(near("referense"), Some("reference"));
+        assert_eq!(near(""), None);
+        assert_eq!(near("sdf"), None);
+        let error = Registry::standard().method("kmarsh").unwrap_err().to_string();
+        assert!(error.starts_with("no method \"kmarsh\"; did you mean kmarch?"), "{error}");
     }
 }
