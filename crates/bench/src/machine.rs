@@ -53,7 +53,7 @@ pub(crate) fn now() -> String {
 
 /// The date of a number of seconds since 1970, in the Gregorian calendar.
 fn date(seconds: u64) -> String {
-    let is_leap = |y: u64| y % 4 == 0 && (y % 100 != 0 || y % 400 == 0);
+    let is_leap = |y: u64| y.is_multiple_of(4) && (!y.is_multiple_of(100) || y.is_multiple_of(400));
     let (mut days, time) = (seconds / 86400, seconds % 86400);
     let mut year = 1970;
     while days >= 365 + u64::from(is_leap(year)) {

@@ -7,7 +7,7 @@ use zeroset_raycast::Method;
 /// The standard methods, each with its default knobs.
 pub fn methods() -> Vec<Box<dyn Method>> {
     vec![
-        // Box::new(zeroset_cpu::Amp::default()),
+        Box::new(zeroset_cpu::Amp::default()),
         Box::new(zeroset_cpu::Kmarch::default()),
         // Box::new(zeroset_cpu::Reference::default()),
     ]
