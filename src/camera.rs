@@ -163,7 +163,7 @@ mod tests {
             ("1,2,3", "is no part"),
             ("eye=1,2", "three"),
             ("eye=1,2,x", "\"x\""),
-            ("eye=1,2,nan", "nan"),
+            ("eye=1,2,nan", "not finite"),
             ("fov=0", "between 0 and 180"),
             ("fov=180", "between 0 and 180"),
             ("fov=1,2", "takes one"),

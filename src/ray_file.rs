@@ -8,28 +8,36 @@ use zeroset::raycast::Ray;
 const COLUMNS: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
 
 /// Reads rays; an error names the line, the value and the limit.
-pub(crate) fn read(file: impl Read) -> Result<Vec<Ray>, String> {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
-    let columns = find_columns(reader.headers().map_err(message)?)?;
+pub(crate) fn read(mut file: impl Read) -> Result<Vec<Ray>, String> {
+    let mut text = Vec::new();
+    file.read_to_end(&mut text).map_err(|error| format!("cannot read: {error}"))?;
+    rays(text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&text))
+}
+
+fn rays(text: &[u8]) -> Result<Vec<Ray>, String> {
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text);
+    let columns = find_columns(reader.headers().map_err(|e| message(text, &e))?)?;
     let mut rays = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(message)?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let mut values = [0.0_f32; 6];
-        for ((value, name), column) in values.iter_mut().zip(COLUMNS).zip(columns) {
-            *value = number(name, &record[column]).map_err(|why| format!("line {line}: {why}"))?;
-        }
-        let [ox, oy, oz, dx, dy, dz] = values;
-        let ray = Ray::new(Vec3::new(ox, oy, oz), Vec3::new(dx, dy, dz));
-        if !ray.is_valid() {
-            return Err(format!(
-                "line {line}: the direction is zero in single precision; give dx,dy,dz of which one \
-                 is not"
-            ));
-        }
-        rays.push(ray);
+    let mut record = csv::StringRecord::new();
+    while reader.read_record(&mut record).map_err(|e| message(text, &e))? {
+        rays.push(ray(&record, columns).map_err(|why| at(text, record.position(), &why))?);
     }
     Ok(rays)
+}
+
+/// The ray of a row.
+fn ray(record: &csv::StringRecord, columns: [usize; 6]) -> Result<Ray, String> {
+    let mut values = [0.0_f32; 6];
+    for ((value, name), column) in values.iter_mut().zip(COLUMNS).zip(columns) {
+        *value = number(name, &record[column])?;
+    }
+    let [ox, oy, oz, dx, dy, dz] = values;
+    let ray = Ray::new(Vec3::new(ox, oy, oz), Vec3::new(dx, dy, dz));
+    if ray.is_valid() {
+        Ok(ray)
+    } else {
+        Err("the direction is zero in single precision; dx, dy or dz must not be".into())
+    }
 }
 
 /// Where the six columns are.
@@ -61,16 +69,24 @@ fn number(name: &str, text: &str) -> Result<f32, String> {
 }
 
 /// What the CSV reader found wrong.
-fn message(error: csv::Error) -> String {
-    let line = error.position().map_or_else(String::new, |p| format!("line {}: ", p.line()));
-    match error.kind() {
+fn message(text: &[u8], error: &csv::Error) -> String {
+    let what = match error.kind() {
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            format!("{line}{len} fields where the header has {expected_len}")
+            format!("{len} fields where the header has {expected_len}")
         }
-        csv::ErrorKind::Utf8 { .. } => format!("{line}not UTF-8 text"),
-        csv::ErrorKind::Io(error) => format!("cannot read on: {error}"),
-        _ => format!("{line}{error}"),
-    }
+        csv::ErrorKind::Utf8 { .. } => "not UTF-8 text".into(),
+        _ => error.to_string(),
+    };
+    at(text, error.position(), &what)
+}
+
+/// What is wrong, with its line. The reader's own count of lines omits blank ones before a row.
+fn at(text: &[u8], position: Option<&csv::Position>, what: &str) -> String {
+    let Some(position) = position else { return what.into() };
+    let start = text.len().min(position.byte() as usize);
+    let blank = text[start..].iter().take_while(|b| matches!(b, b'\r' | b'\n')).count();
+    let line = 1 + text[..start + blank].iter().filter(|b| **b == b'\n').count();
+    format!("line {line}: {what}")
 }
 
 #[cfg(test)]
@@ -113,6 +129,8 @@ mod tests {
             (format!("{header}\n0,0,0,1,0,-inf\n"), "line 2: dz is -inf"),
             (format!("{header}\n1e39,0,0,1,0,0\n"), "line 2: ox is 1e39, beyond"),
             (format!("{header}\n\n0,0,0,1e-60,0,-0\n"), "line 3: the direction is zero"),
+            (format!("{header}\r\n\r\n0,0,0,0,0,0"), "line 3: the direction is zero"),
+            (format!("{header},note\n0,0,0,1,0,0,\"a\nb\"\n0,0,0,0,0,0,\n"), "line 4: the dir"),
         ] {
             let error = read(text.as_bytes()).unwrap_err();
             assert!(error.starts_with(says), "{text:?}: {error}");

@@ -202,7 +202,16 @@ fn rays_go_in_and_answers_come_out_in_order() {
     let rays = "note,dx,dy,dz,ox,oy,oz\nhit,0,0,2,0,0,-3\nmiss,1,0,0,0,0,-3\ninside,0,0,-1,0,0,0\n";
     for method in ["amp", "kmarch", "reference"] {
         let arguments = [
-            "trace", SPHERE, "--method", method, "--rays", "-", "--out", "-", "--precision", "1e-6",
+            "trace",
+            SPHERE,
+            "--method",
+            method,
+            "--rays",
+            "-",
+            "--out",
+            "-",
+            "--precision",
+            "1e-6",
         ];
         let outcome = run_with(dir.path(), &arguments, rays);
         assert_eq!(outcome.status, 0, "{}", outcome.stderr);
@@ -228,8 +237,16 @@ fn rays_go_in_and_answers_come_out_in_order() {
         // The same through files.
         fs::write(dir.path().join("rays.csv"), rays).unwrap();
         let arguments = [
-            "trace", SPHERE, "--method", method, "--rays", "rays.csv", "--out", "answers.csv",
-            "--precision", "1e-6",
+            "trace",
+            SPHERE,
+            "--method",
+            method,
+            "--rays",
+            "rays.csv",
+            "--out",
+            "answers.csv",
+            "--precision",
+            "1e-6",
         ];
         assert_eq!(done(dir.path(), &arguments), "");
         assert_eq!(fs::read_to_string(dir.path().join("answers.csv")).unwrap(), outcome.stdout);
