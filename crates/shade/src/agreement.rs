@@ -93,7 +93,7 @@ fn legend(palette: &Palette, keys: &[(Agreement, &str, [u8; 3])]) -> Legend {
             label: if d == 0 { "1".into() } else { format!("1e{d}") },
         })
         .collect();
-    let scale = Scale { title: "correct hits: |dt|".into(), palette: palette.clone(), ticks };
+    let scale = Scale { title: "error in t".into(), palette: palette.clone(), ticks };
     let keys = keys.iter().map(|(_, name, colour)| Key::new(*colour, *name)).collect();
     Legend { scale: Some(scale), keys }
 }

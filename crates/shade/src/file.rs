@@ -20,9 +20,10 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ShadeError> {
         fs::create_dir_all(folder)
             .map_err(|source| ShadeError::Folder { path: folder.to_path_buf(), source })?;
     }
-    let partial = partial_path(path).map_err(failed)?;
-    let mut file =
-        OpenOptions::new().write(true).create_new(true).open(&partial).map_err(failed)?;
+    if path.file_name().is_none() {
+        return Err(failed(io::Error::new(io::ErrorKind::InvalidInput, "the path names no file")));
+    }
+    let (partial, mut file) = create_beside(path).map_err(failed)?;
     fill(&mut file, bytes).and_then(|()| fs::rename(&partial, path)).map_err(|source| {
         // The first error is the one to report.
         let _ = fs::remove_file(&partial);
@@ -36,15 +37,18 @@ fn fill(file: &mut File, bytes: &[u8]) -> io::Result<()> {
     file.sync_all()
 }
 
-/// A name in the same folder that no other process or thread uses.
-fn partial_path(path: &Path) -> io::Result<PathBuf> {
+/// A new file in the same folder, of a name that no process or thread uses.
+fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
     static COUNT: AtomicU64 = AtomicU64::new(0);
-    let name = path
-        .file_name()
-        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
-    let count = COUNT.fetch_add(1, Ordering::Relaxed);
-    let partial = format!(".{}.{}-{count}.partial", name.to_string_lossy(), process::id());
-    Ok(path.with_file_name(partial))
+    loop {
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let partial = path.with_file_name(format!(".{}-{count}.partial", process::id()));
+        match OpenOptions::new().write(true).create_new(true).open(&partial) {
+            // Left by a process of the same number that was killed.
+            Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
+            other => return other.map(|file| (partial, file)),
+        }
+    }
 }
 
 #[cfg(test)]

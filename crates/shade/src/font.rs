@@ -20,7 +20,13 @@ pub(crate) fn glyph(character: char) -> Glyph {
         .and_then(|i| GLYPHS.get(i))
         .copied()
         .unwrap_or(FRAME);
-    Glyph { rows, drop: if "gpqy,;".contains(character) { 2 } else { 0 } }
+    let drop = match character {
+        'g' | 'p' | 'q' | 'y' | ',' | ';' => 2,
+        // Else it would look like an l.
+        '|' => 1,
+        _ => 0,
+    };
+    Glyph { rows, drop }
 }
 
 const FRAME: [u8; 7] = [0b11111, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b11111];

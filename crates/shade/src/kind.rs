@@ -94,6 +94,34 @@ pub fn picture(
     }
 }
 
+/// The pictures of a kind of several answers to one view, with the same scale for all, so that they
+/// compare.
+///
+/// # Errors
+/// As for [`picture`].
+pub fn pictures(
+    kind: ViewKind,
+    view: &View,
+    answers: &[(&Hits, Option<&[Agreement]>)],
+) -> Result<Vec<Picture>, ShadeError> {
+    let depths = answers.iter().filter_map(|(hits, _)| depth::range(hits)).reduce(union);
+    let counts = answers.iter().map(|(hits, _)| steps::range(hits)).reduce(union);
+    answers
+        .iter()
+        .map(|(hits, agreement)| match kind {
+            ViewKind::Depth => depth::picture_within(view, hits, depths),
+            ViewKind::Steps => steps::picture_within(view, hits, counts.unwrap_or_default()),
+            // The other scales are fixed.
+            _ => picture(kind, view, hits, *agreement),
+        })
+        .collect()
+}
+
+/// The least range that holds two.
+fn union<T: PartialOrd>([a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
+    [if a < c { a } else { c }, if b > d { b } else { d }]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn numbers_have_four_digits() {
-        let cases = [(0.0, "0"), (3.14159, "3.142"), (-12345.6, "-12346"), (0.01234567, "0.01235")];
+        let cases = [(0.0, "0"), (2.34567, "2.346"), (-12345.6, "-12346"), (0.01234567, "0.01235")];
         for (x, text) in cases {
             assert_eq!(digits(x), text);
         }

@@ -19,8 +19,7 @@ pub fn picture(view: &View, hits: &Hits) -> Result<Picture, ShadeError> {
     check_normals(view, hits, "normal")?;
     let background = Colour::oklch(0.23, 0.01, 270.0).bytes();
     let none = [128; 3];
-    let description =
-        "normals that face the eye, in world space: red, green, blue = 255 (n + 1) / 2";
+    let description = "normals that face the eye, in world space: red, green, blue = 255(n+1)/2";
     Picture::painted(view, description, None, |i| {
         if !hits.certificate[i].is_hit() {
             return background;

@@ -79,7 +79,7 @@ impl Picture {
         let width = self.width.max(legend::NARROWEST);
         let height = self.height.saturating_add(legend.height(width));
         let mut picture = Self::filled(width, height, legend::paper())?;
-        picture.paste(self, (width - self.width) / 2, 0);
+        picture.paste(self, [(width - self.width) / 2, 0], 1);
         legend.draw(&mut picture, [0, self.height], width);
         Ok(picture.described(self.description.as_str()))
     }
@@ -102,13 +102,12 @@ impl Picture {
         }
     }
 
-    /// Copies the part of another picture that lies in this one.
-    pub(crate) fn paste(&mut self, other: &Self, x: usize, y: usize) {
-        let columns = other.width.min(self.width.saturating_sub(x));
-        for row in 0..other.height.min(self.height.saturating_sub(y)) {
-            let to = (y + row) * self.width + x;
-            let from = row * other.width;
-            self.pixels[to..to + columns].copy_from_slice(&other.pixels[from..from + columns]);
+    /// Copies another picture, each pixel to a square of `zoom` a side; what lies outside is cut
+    /// off.
+    pub(crate) fn paste(&mut self, other: &Self, [x, y]: [usize; 2], zoom: usize) {
+        for (i, pixel) in other.pixels.iter().enumerate() {
+            let [column, row] = [i % other.width, i / other.width];
+            self.fill([x + zoom * column, y + zoom * row], [zoom, zoom], *pixel);
         }
     }
 }
@@ -163,8 +162,8 @@ mod tests {
         picture.fill([7, 0], [1, 1], [2; 3]);
         picture.fill([0, 9], [1, 1], [2; 3]);
         let blot = Picture::filled(5, 5, [3; 3]).unwrap();
-        picture.paste(&blot, 9, 9);
-        picture.paste(&blot, 0, 1);
+        picture.paste(&blot, [9, 9], 1);
+        picture.paste(&blot, [0, 1], 2);
         assert_eq!(picture.pixels(), [[0; 3], [0; 3], [0; 3], [3; 3], [3; 3], [3; 3]]);
     }
 

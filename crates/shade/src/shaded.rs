@@ -30,8 +30,8 @@ impl Light {
 pub fn lights(view: &View) -> Vec<Light> {
     let [right, up, forward] = view.camera.frame().map(|v| v.as_vec3());
     vec![
-        Light::new(-0.55 * right + 0.75 * up - 0.75 * forward, 0.82),
-        Light::new(0.9 * right - 0.1 * up - 0.6 * forward, 0.13),
+        Light::new(-0.7 * right + 0.9 * up - 0.7 * forward, 0.88),
+        Light::new(0.8 * right + 0.1 * up - 0.8 * forward, 0.12),
     ]
 }
 
@@ -62,7 +62,7 @@ pub fn picture(view: &View, hits: &Hits, lights: &[Light]) -> Result<Picture, Sh
             return background.at(i / view.width);
         }
         let Some(seen) = seen(view, i, hits.normal[i]) else { return none };
-        let mut light = 0.10 + 0.07 * seen.normal.dot(up);
+        let mut light = 0.08 + 0.05 * seen.normal.dot(up);
         for (direction, source) in directions.iter().zip(lights) {
             if !source.blocked.get(i).is_some_and(|blocked| *blocked) {
                 light += source.strength * seen.normal.dot(*direction).max(0.0);
