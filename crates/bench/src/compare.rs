@@ -6,7 +6,7 @@ use zeroset_raycast::{
     Certificate, Error, Hits, Knob, Method, Progress, Rays, Request, Scene, Work,
 };
 
-use crate::{Judgement, Oracle, Sample, Tolerance, Truths, judge, truth};
+use crate::{Judgement, Oracle, Sample, Tolerance, Truth, Truths, judge, truth};
 
 /// How to compare.
 #[derive(Clone, Debug, PartialEq)]
@@ -199,8 +199,7 @@ fn run_all(
     Comparison { truths, no_truth, runs, interrupted: progress.is_stopped() }
 }
 
-/// The truth for all rays if that is expected to take no longer than `budget`, else for an even
-/// sample that is.
+/// The truth on ever finer grids, up to all rays, as long as the next is expected to fit the budget.
 fn classify(
     oracle: &dyn Oracle,
     rays: Rays<'_>,
@@ -208,38 +207,35 @@ fn classify(
     progress: &Progress,
     watch: &mut dyn FnMut(Stage, f64),
 ) -> Result<Truths, Error> {
-    /// Rays whose time is extrapolated to all.
-    const PROBE: usize = 256;
-    /// Rays at a time, so that progress is seen.
-    const CHUNK: usize = 1024;
+    /// Rays in the first grid, at least.
+    const FIRST: usize = 64;
     watch(Stage::Classify, 0.0);
-    let probe = Sample::every(step(rays, PROBE), rays);
+    // Rays at a time, so that progress is seen and all threads have enough to do.
+    let chunk = 256 * rayon::current_num_threads();
     let start = Instant::now();
-    let truths = oracle.classify(rays, &probe.indices, progress)?;
-    if probe.is_all() {
-        watch(Stage::Classify, 1.0);
-        return Ok(Truths { sample: probe, truths });
+    let mut known: Vec<Option<Truth>> = vec![None; rays.len()];
+    let mut count = 0;
+    let mut sample = Sample::coarsest(FIRST, rays);
+    loop {
+        let new: Vec<_> = sample.indices.iter().copied().filter(|i| known[*i].is_none()).collect();
+        for indices in new.chunks(chunk) {
+            let truths = oracle.classify(rays, indices, progress)?;
+            for (&index, truth) in indices.iter().zip(truths) {
+                known[index] = Some(truth);
+            }
+            count += indices.len();
+            watch(Stage::Classify, count as f64 / rays.len() as f64);
+        }
+        let Some(finer) = sample.finer(rays) else { break };
+        let expected = start.elapsed().as_secs_f64() / count as f64 * finer.indices.len() as f64;
+        if expected > budget.as_secs_f64() {
+            break;
+        }
+        sample = finer;
     }
-    let time_a_ray = start.elapsed().as_secs_f64() / probe.indices.len() as f64;
-    // A float beyond the range of integers becomes the greatest integer.
-    let affordable = (budget.as_secs_f64() / time_a_ray) as usize;
-    let sample = Sample::every(step(rays, affordable.max(1)), rays);
-    let mut truths = Vec::with_capacity(sample.indices.len());
-    for chunk in sample.indices.chunks(CHUNK) {
-        truths.extend(oracle.classify(rays, chunk, progress)?);
-        watch(Stage::Classify, truths.len() as f64 / sample.indices.len() as f64);
-    }
-    Ok(Truths { sample, truths })
-}
-
-/// The least step at which an even sample has about `wanted` rays.
-fn step(rays: Rays<'_>, wanted: usize) -> usize {
-    let ratio = rays.len() as f64 / wanted as f64;
-    let step = match rays {
-        Rays::View(_) => ratio.sqrt(),
-        Rays::Batch(_) => ratio,
-    };
-    step.ceil().max(1.0) as usize
+    watch(Stage::Classify, 1.0);
+    // Every grid holds the coarser ones, so all that is known is in the last.
+    Ok(Truths { sample, truths: known.into_iter().flatten().collect() })
 }
 
 /// One method: prepared, judged, timed.

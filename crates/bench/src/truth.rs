@@ -68,20 +68,37 @@ pub struct Truths {
 }
 
 impl Sample {
-    /// Every `step`-th ray, along both axes of a view.
+    /// Every `step`-th ray from the first, along both axes of a view.
     ///
     /// # Panics
     /// If `step` is 0.
     pub fn every(step: usize, rays: Rays<'_>) -> Self {
-        // From the middle of the first step, so that no border is preferred.
-        let places = |n: usize| (n.min(step / 2 + 1).saturating_sub(1)..n).step_by(step);
         let indices = match rays {
-            Rays::View(view) => places(view.height)
-                .flat_map(|row| places(view.width).map(move |column| row * view.width + column))
+            Rays::View(view) => (0..view.height)
+                .step_by(step)
+                .flat_map(|row| (0..view.width).step_by(step).map(move |c| row * view.width + c))
                 .collect(),
-            Rays::Batch(batch) => places(batch.rays.len()).collect(),
+            Rays::Batch(batch) => (0..batch.rays.len()).step_by(step).collect(),
         };
         Self { indices, step, rays: rays.len() }
+    }
+
+    /// The sample with the greatest step, a power of two, that has at least `least` rays; all rays
+    /// if there are fewer.
+    pub fn coarsest(least: usize, rays: Rays<'_>) -> Self {
+        let mut sample = Self::every(1, rays);
+        loop {
+            let coarser = Self::every(2 * sample.step, rays);
+            if coarser.indices.len() < least.max(2) {
+                return sample;
+            }
+            sample = coarser;
+        }
+    }
+
+    /// The sample of half the step, which holds this one; `None` for all rays.
+    pub fn finer(&self, rays: Rays<'_>) -> Option<Self> {
+        (self.step > 1).then(|| Self::every(self.step / 2, rays))
     }
 
     /// Are all rays in it?
@@ -148,15 +165,21 @@ mod tests {
     }
 
     #[test]
-    fn samples_are_even_and_never_empty() {
+    fn samples_are_even_and_nested() {
         let view = view(7, 5);
-        assert!(Sample::every(1, Rays::View(&view)).is_all());
-        let third = Sample::every(3, Rays::View(&view));
-        assert_eq!(third.indices, [8, 11, 29, 32]);
-        assert!(!third.is_all());
-        assert_eq!(Sample::every(1000, Rays::View(&view)).indices, [34]);
-        let empty = RayBatch::new(Vec::new());
-        assert!(Sample::every(4, Rays::Batch(&empty)).indices.is_empty());
+        let rays = Rays::View(&view);
+        assert!(Sample::every(1, rays).is_all());
+        assert_eq!(Sample::every(3, rays).indices, [0, 3, 6, 21, 24, 27]);
+        assert_eq!(Sample::every(1000, rays).indices, [0]);
+        let coarsest = Sample::coarsest(3, rays);
+        assert_eq!((coarsest.step, &coarsest.indices[..]), (4, &[0, 4, 28, 32][..]));
+        let finer = coarsest.finer(rays).unwrap();
+        assert_eq!(finer.step, 2);
+        assert!(coarsest.indices.iter().all(|i| finer.indices.contains(i)));
+        assert!(finer.finer(rays).unwrap().is_all());
+        assert_eq!(Sample::coarsest(1000, rays).finer(rays), None);
+        let batch = RayBatch::new(Vec::new());
+        assert!(Sample::coarsest(64, Rays::Batch(&batch)).is_all());
     }
 
     #[test]

@@ -130,10 +130,10 @@ fn a_slow_oracle_judges_an_even_sample() {
     let comparison =
         compare_with(&oracle, &scene, rays, &methods, &options, &progress, &mut |_, _| {});
     let sample = &comparison.truths.as_ref().unwrap().sample;
-    assert!(sample.step >= 3 && !sample.is_all(), "{}", sample.step);
+    // A sixteenth of 2304 rays takes 29 ms, a quarter would take 115.
+    assert_eq!(sample.step, 4);
     let tally = tally(comparison.runs[0].outcome.as_ref().unwrap());
-    assert_eq!(tally.judged, sample.indices.len());
-    assert!(tally.judged > 10 && tally.judged <= 300, "{}", tally.judged);
+    assert_eq!((tally.judged, sample.indices.len()), (144, 144));
     assert_eq!((tally.clear_misses, tally.lies), (None, 0));
     let verdicts =
         &comparison.runs[0].outcome.as_ref().unwrap().judgement.as_ref().unwrap().verdict;

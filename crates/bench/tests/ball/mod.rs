@@ -266,7 +266,7 @@ impl Prepared {
             Fault::LeavesTheRange if clip.is_some() => {
                 Hit { bracket: [lo, end.next_up()], ..honest }
             }
-            Fault::OnIndex if index % 5 == 0 => miss(Certificate::MISS),
+            Fault::OnIndex if index.is_multiple_of(5) => miss(Certificate::MISS),
             Fault::OnCount if rays.len() < 10 => miss(Certificate::MISS),
             Fault::OnThreads if rayon::current_num_threads() == 1 => miss(Certificate::MISS),
             Fault::OnRequest if request == Request::FirstWithNormal => {
