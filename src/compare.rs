@@ -97,9 +97,11 @@ impl Compare {
         };
         let machine = Machine::this();
         let records = Record::of(&comparison, &scene, rays, &machine, &context);
-        record::append(&record_file, &records).map_err(Failure::work)?;
         let mut files = self.draw(&comparison, &scene, &view)?;
-        files.push(record_file);
+        if !records.is_empty() {
+            record::append(&record_file, &records).map_err(Failure::work)?;
+            files.push(record_file);
+        }
 
         if self.json {
             output::print(record::json(&records).as_bytes())?;

@@ -3,7 +3,8 @@
 use std::fs;
 use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
 use tempfile::TempDir;
 
@@ -14,18 +15,28 @@ struct Outcome {
     stderr: String,
 }
 
-/// Runs the program in a folder, with text on standard input.
-fn run_with(folder: &Path, arguments: &[&str], input: &str) -> Outcome {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_zeroset"))
+/// Starts the program in a folder.
+fn start(folder: &Path, arguments: &[&str]) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_zeroset"))
         .args(arguments)
         .current_dir(folder)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .unwrap();
+        .unwrap()
+}
+
+/// Runs the program in a folder, with text on standard input.
+fn run_with(folder: &Path, arguments: &[&str], input: &str) -> Outcome {
+    let mut child = start(folder, arguments);
     // The program may refuse its arguments without reading.
     let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    end(child)
+}
+
+/// Waits for the program to end.
+fn end(child: Child) -> Outcome {
     let output = child.wait_with_output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     Outcome {
@@ -288,6 +299,10 @@ fn equations_files_and_values_may_begin_with_a_minus() {
     assert!(a.len() > 100 && c.len() > 100);
 }
 
+fn records(file: &Path) -> Vec<zeroset::bench::Record> {
+    csv::Reader::from_path(file).unwrap().deserialize().map(Result::unwrap).collect()
+}
+
 #[test]
 fn compare_prints_a_table_and_writes_pictures_and_records() {
     let dir = folder();
@@ -309,9 +324,6 @@ fn compare_prints_a_table_and_writes_pictures_and_records() {
     let picture = image::open(out.join("barth-sextic-kmarch.png")).unwrap();
     assert_eq!((picture.width(), picture.height()), (24, 16));
 
-    let records = |path: &Path| -> Vec<zeroset::bench::Record> {
-        csv::Reader::from_path(path).unwrap().deserialize().map(Result::unwrap).collect()
-    };
     let first = records(&out.join("records.csv"));
     let kmarch = first.iter().find(|r| r.method == "kmarch").unwrap();
     assert_eq!((kmarch.scene.as_str(), kmarch.width, kmarch.height), ("barth-sextic", 24, 16));
@@ -397,4 +409,34 @@ fn answers_do_not_depend_on_threads() {
         pictures.push(fs::read(dir.path().join("k.exr")).unwrap());
     }
     assert!(pictures.windows(2).all(|p| p[0] == p[1]));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_keeps_what_is_finished_whole() {
+    // How long the first method takes until it is timed depends on the machine.
+    for wait in [2, 4, 8, 16, 32] {
+        let dir = folder();
+        let arguments = ["compare", SPHERE, "--methods", "amp,kmarch", "--size", "16x16"];
+        let child = start(dir.path(), &[&arguments[..], &["--runs", "1000000"]].concat());
+        std::thread::sleep(Duration::from_secs(wait));
+        let pid = child.id().to_string();
+        assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+        let outcome = end(child);
+        assert_eq!(outcome.status, 130, "{}", outcome.stderr);
+        assert!(outcome.stderr.contains("interrupted"), "{}", outcome.stderr);
+        let out = dir.path().join("out");
+        assert!(files(&out).iter().all(|f| !f.starts_with('.')), "{:?}", files(&out));
+        if !out.join("records.csv").exists() {
+            assert_eq!(files(&out), [""; 0]);
+            continue;
+        }
+        let records = records(&out.join("records.csv"));
+        assert_eq!(records.iter().map(|r| r.method.as_str()).collect::<Vec<_>>(), ["amp"]);
+        assert_eq!(records[0].outcome, "ok");
+        assert!(outcome.stdout.contains("amp"), "{}", outcome.stdout);
+        assert!(files(&out).iter().any(|f| f.ends_with("-amp.png")), "{:?}", files(&out));
+        return;
+    }
+    panic!("nothing was finished in 32 s");
 }

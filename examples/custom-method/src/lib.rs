@@ -4,9 +4,9 @@
 use glam::{DVec3, Vec3};
 use zeroset_expr::{Evaluator, Function, Parameters, Tape};
 use zeroset_ia::{Dual, Plain};
+use zeroset_raycast::knob;
 use zeroset_raycast::{Certificate, Domain, Geometry, Hit, Hits, Ray, Rays, Request, Scene, Work};
 use zeroset_raycast::{Error, Intersector, Knob, KnobError, Method, Progress, Report, Unsupported};
-use zeroset_raycast::knob;
 
 /// The algorithm and its knobs.
 #[derive(Clone, Debug)]

@@ -19,7 +19,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         &Progress::new(),
         &mut |_, _| {},
     );
-    println!("{:12} {:>9} {:>8} {:>12} {:>11}", "method", "frame ms", "hits", "false misses", "false hits");
+    println!(
+        "{:12} {:>9} {:>8} {:>12} {:>11}",
+        "method", "frame ms", "hits", "false misses", "false hits"
+    );
     for run in &comparison.runs {
         match &run.outcome {
             Ok(outcome) => println!(
