@@ -8,10 +8,10 @@ use zeroset_raycast::{Hits, Rays, Request, Work};
 use glam::{DVec3, Vec3};
 
 /// Fills in the normals if they were asked for: the unit gradient at the middle of each bracket, in
-/// double precision; zero where it vanishes or is not finite.
-pub(crate) fn fill(tape: &Tape, rays: Rays<'_>, hits: &mut Hits) {
+/// double precision; zero where it vanishes or is not finite. Gives what that cost.
+pub(crate) fn fill(tape: &Tape, rays: Rays<'_>, hits: &mut Hits) -> Work {
     if hits.request != Request::FirstWithNormal {
-        return;
+        return Work::default();
     }
     let (bracket, certificate) = (&hits.bracket, &hits.certificate);
     hits.normal.par_chunks_mut(1024).zip(hits.work.par_chunks_mut(1024)).enumerate().for_each(
@@ -32,6 +32,8 @@ pub(crate) fn fill(tape: &Tape, rays: Rays<'_>, hits: &mut Hits) {
             }
         },
     );
+    let gradients = hits.certificate.iter().filter(|c| c.is_hit()).count() as u64;
+    Work { gradients, ..Work::default() }
 }
 
 /// The unit vector along `v`, scaled first so that its square neither overflows nor vanishes.

@@ -1,7 +1,9 @@
 //! Work sharing: rays in tiles, tiles over threads.
 
 use rayon::prelude::*;
-use zeroset_raycast::{Certificate, Error, Hit, Hits, Progress, Ray, Rays, Report, Work};
+use zeroset_raycast::{
+    Certificate, Error, Hit, Hits, Progress, Ray, RayBatch, Rays, Report, View, Work,
+};
 
 /// Pixels along a tile's side.
 const SIDE: usize = 32;
@@ -20,77 +22,84 @@ pub(crate) fn cast(
 ) -> Result<Report, Error> {
     assert_eq!(rays.len(), hits.len(), "one answer a ray");
     let tiles = tiles(rays);
+    let mut work = Work::default();
     // A bounded number of tiles at a time, so that answers do not pile up.
     for group in tiles.chunks(4 * rayon::current_num_threads().max(1)) {
-        let answers: Vec<Vec<(usize, Hit)>> =
-            group.par_iter().map(|tile| answer(rays, &tile.indices(rays), &run)).collect();
-        for (index, hit) in answers.iter().flatten() {
+        let answers: Vec<_> = group.par_iter().map(|tile| answer(*tile, &run)).collect();
+        for (index, hit) in answers.iter().flat_map(|(indices, hits)| indices.iter().zip(hits)) {
             hits.set(*index, *hit);
+            work += hit.work;
         }
-        progress.advance(answers.iter().map(Vec::len).sum())?;
+        progress.advance(answers.iter().map(|(indices, _)| indices.len()).sum())?;
     }
-    Ok(Report { work: hits.total_work(), device_time: None })
+    Ok(Report { work, device_time: None })
 }
 
-/// The answers of one tile; rays that are no rays are counted and missed.
-fn answer(
-    rays: Rays<'_>,
-    indices: &[usize],
-    run: &impl Fn(&[Ray]) -> Vec<Hit>,
-) -> Vec<(usize, Hit)> {
-    let all: Vec<_> = indices.iter().map(|&i| (i, rays.get(i))).collect();
-    let valid: Vec<Ray> = all.iter().map(|(_, r)| *r).filter(|r| r.is_valid()).collect();
-    let mut answers = run(&valid).into_iter();
+/// The indices of a tile's rays and their answers; rays that are no rays are counted and missed.
+fn answer(tile: Tile<'_>, run: &impl Fn(&[Ray]) -> Vec<Hit>) -> (Vec<usize>, Vec<Hit>) {
+    let (mut indices, mut valid) = (Vec::with_capacity(CHUNK), Vec::with_capacity(CHUNK));
+    let mut invalid = Vec::new();
+    tile.visit(|index, ray| {
+        if ray.is_valid() {
+            indices.push(index);
+            valid.push(ray);
+        } else {
+            invalid.push(index);
+        }
+    });
+    let mut hits = run(&valid);
+    assert_eq!(hits.len(), valid.len(), "one answer a ray");
     let no_ray = Work { nonfinite: 1, ..Work::default() };
-    all.into_iter()
-        .map(|(i, ray)| {
-            let hit = if ray.is_valid() { answers.next() } else { None };
-            (i, hit.unwrap_or_else(|| Hit::miss(Certificate::MISS, no_ray)))
-        })
-        .collect()
+    hits.extend(invalid.iter().map(|_| Hit::miss(Certificate::MISS, no_ray)));
+    indices.extend(invalid);
+    (indices, hits)
 }
 
 /// A tile of a view by its corner, or a range of a batch.
-enum Tile {
-    Pixels { column: usize, row: usize },
-    Range { start: usize, end: usize },
+#[derive(Clone, Copy)]
+enum Tile<'a> {
+    Pixels { view: &'a View, column: usize, row: usize },
+    Range { batch: &'a RayBatch, start: usize, end: usize },
 }
 
-fn tiles(rays: Rays<'_>) -> Vec<Tile> {
+fn tiles(rays: Rays<'_>) -> Vec<Tile<'_>> {
     match rays {
         Rays::View(view) => (0..view.height)
             .step_by(SIDE)
             .flat_map(|row| {
-                (0..view.width).step_by(SIDE).map(move |column| Tile::Pixels { column, row })
+                (0..view.width).step_by(SIDE).map(move |column| Tile::Pixels { view, column, row })
             })
             .collect(),
         Rays::Batch(batch) => (0..batch.rays.len())
             .step_by(CHUNK)
-            .map(|start| Tile::Range { start, end: (start + CHUNK).min(batch.rays.len()) })
+            .map(|start| {
+                let end = (start + CHUNK).min(batch.rays.len());
+                Tile::Range { batch, start, end }
+            })
             .collect(),
     }
 }
 
-impl Tile {
-    fn indices(&self, rays: Rays<'_>) -> Vec<usize> {
-        match (self, rays) {
-            (&Self::Range { start, end }, _) => (start..end).collect(),
-            (&Self::Pixels { column, row }, Rays::View(view)) => {
+impl Tile<'_> {
+    /// Shows every ray and its index, neighbours together.
+    fn visit(self, mut see: impl FnMut(usize, Ray)) {
+        match self {
+            Self::Range { batch, start, end } => {
+                (start..end).for_each(|index| see(index, batch.rays[index]));
+            }
+            Self::Pixels { view, column, row } => {
                 let columns = column..(column + SIDE).min(view.width);
                 let rows = row..(row + SIDE).min(view.height);
-                let mut indices = Vec::with_capacity(CHUNK);
                 for block_row in rows.clone().step_by(BLOCK[1]) {
                     for block_column in columns.clone().step_by(BLOCK[0]) {
                         for y in block_row..(block_row + BLOCK[1]).min(rows.end) {
                             for x in block_column..(block_column + BLOCK[0]).min(columns.end) {
-                                indices.push(y * view.width + x);
+                                see(y * view.width + x, view.ray(x, y));
                             }
                         }
                     }
                 }
-                indices
             }
-            (Self::Pixels { .. }, Rays::Batch(_)) => unreachable!("batches have ranges"),
         }
     }
 }

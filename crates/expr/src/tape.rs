@@ -1,5 +1,7 @@
 //! Tapes: straight lines of number operations.
 
+use std::collections::BTreeSet;
+
 use zeroset_ia::{Binary, Constant, Number, Unary};
 
 /// A place for an intermediate value; the first three hold x, y and z.
@@ -36,6 +38,27 @@ pub enum Op {
     Binary(Binary, Register, Register),
 }
 
+impl Op {
+    /// The same operation on registers of other names.
+    fn renamed(self, mut name: impl FnMut(Register) -> Register) -> Self {
+        match self {
+            Self::Load(c) => Self::Load(c),
+            Self::Add(a, b) => Self::Add(name(a), name(b)),
+            Self::Sub(a, b) => Self::Sub(name(a), name(b)),
+            Self::Mul(a, b) => Self::Mul(name(a), name(b)),
+            Self::Div(a, b) => Self::Div(name(a), name(b)),
+            Self::Neg(a) => Self::Neg(name(a)),
+            Self::Scale(a, c) => Self::Scale(name(a), c),
+            Self::Offset(a, c) => Self::Offset(name(a), c),
+            Self::Sqr(a) => Self::Sqr(name(a)),
+            Self::Powi(a, n) => Self::Powi(name(a), n),
+            Self::Powc(a, c) => Self::Powc(name(a), c),
+            Self::Unary(f, a) => Self::Unary(f, name(a)),
+            Self::Binary(f, a, b) => Self::Binary(f, name(a), name(b)),
+        }
+    }
+}
+
 /// An operation and where its result goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Instruction {
@@ -52,6 +75,40 @@ pub struct Tape {
     constants: Vec<Constant>,
     registers: usize,
     output: Register,
+    steps: Vec<Instruction>,
+    result: Register,
+}
+
+/// In a tape's steps: the result just before, which most operations read. It is passed on directly,
+/// and goes to a register only if a later operation reads it there.
+const LAST: Register = Register::MAX;
+
+/// The instructions with [`LAST`] for what need not go through a register, and where the result is.
+fn steps(instructions: &[Instruction], output: Register) -> (Vec<Instruction>, Register) {
+    let result = match instructions.last() {
+        Some(last) if last.out == output => LAST,
+        _ => output,
+    };
+    // Backwards, with the registers that are read further on.
+    let mut read = BTreeSet::from([result]);
+    let mut steps: Vec<_> = (0..instructions.len())
+        .rev()
+        .map(|i| {
+            let Instruction { op, out } = instructions[i];
+            let out = if read.remove(&out) { out } else { LAST };
+            let before = i.checked_sub(1).map(|i| instructions[i].out);
+            let op = op.renamed(|r| {
+                if Some(r) == before {
+                    return LAST;
+                }
+                read.insert(r);
+                r
+            });
+            Instruction { op, out }
+        })
+        .collect();
+    steps.reverse();
+    (steps, result)
 }
 
 impl Tape {
@@ -92,7 +149,8 @@ impl Tape {
             written[out] = true;
         }
         read(&written, output);
-        Self { instructions, constants, registers: written.len(), output }
+        let (steps, result) = steps(&instructions, output);
+        Self { instructions, constants, registers: written.len(), output, steps, result }
     }
 
     /// The operations in order.
@@ -137,37 +195,54 @@ impl<N: Number> Evaluator<'_, N> {
 
     /// The function's value at (x, y, z); every sub-value is shown to `inspect`, in order.
     #[inline(always)]
-    pub fn visit(&mut self, point: [N; 3], mut inspect: impl FnMut(&N)) -> N {
+    pub fn visit(&mut self, point: [N; 3], inspect: impl FnMut(&N)) -> N {
         let [x, y, z] = point;
+        self.bind(0, x);
+        self.bind(1, y);
+        self.bind(2, z);
+        self.run(inspect)
+    }
+
+    /// Sets x, y or z (axis 0, 1, 2) for the next [`run`](Self::run).
+    #[inline(always)]
+    pub fn bind(&mut self, axis: usize, value: N) {
+        self.registers[axis] = value;
+    }
+
+    /// The function's value at the point that has been bound, once: a run may overwrite the point.
+    /// Every sub-value is shown to `inspect`, in order.
+    #[inline(always)]
+    pub fn run(&mut self, mut inspect: impl FnMut(&N)) -> N {
         let r = &mut self.registers[..];
-        r[0] = x;
-        r[1] = y;
-        r[2] = z;
         let constants = &self.tape.constants[..];
-        for &Instruction { op, out } in &self.tape.instructions {
+        let mut last = r[0].clone();
+        for &Instruction { op, out } in &self.tape.steps {
             let value = match op {
-                Op::Load(i) => r[0].constant(&constants[i as usize]),
-                Op::Add(a, b) => get(r, a) + get(r, b),
-                Op::Sub(a, b) => get(r, a) - get(r, b),
-                Op::Mul(a, b) => get(r, a) * get(r, b),
-                Op::Div(a, b) => get(r, a) / get(r, b),
-                Op::Neg(a) => -get(r, a),
-                Op::Scale(a, i) => get(r, a).scale(&constants[i as usize]),
-                Op::Offset(a, i) => get(r, a).offset(&constants[i as usize]),
-                Op::Sqr(a) => get(r, a).sqr(),
-                Op::Powi(a, n) => get(r, a).powi(n),
-                Op::Powc(a, i) => get(r, a).powc(&constants[i as usize]),
-                Op::Unary(f, a) => get(r, a).unary(f),
-                Op::Binary(f, a, b) => get(r, a).binary(f, get(r, b)),
+                Op::Load(i) => last.constant(&constants[i as usize]),
+                Op::Add(a, b) => get(r, &last, a) + get(r, &last, b),
+                Op::Sub(a, b) => get(r, &last, a) - get(r, &last, b),
+                Op::Mul(a, b) => get(r, &last, a) * get(r, &last, b),
+                Op::Div(a, b) => get(r, &last, a) / get(r, &last, b),
+                Op::Neg(a) => -get(r, &last, a),
+                Op::Scale(a, i) => get(r, &last, a).scale(&constants[i as usize]),
+                Op::Offset(a, i) => get(r, &last, a).offset(&constants[i as usize]),
+                Op::Sqr(a) => get(r, &last, a).sqr(),
+                Op::Powi(a, n) => get(r, &last, a).powi(n),
+                Op::Powc(a, i) => get(r, &last, a).powc(&constants[i as usize]),
+                Op::Unary(f, a) => get(r, &last, a).unary(f),
+                Op::Binary(f, a, b) => get(r, &last, a).binary(f, get(r, &last, b)),
             };
             inspect(&value);
-            r[out as usize] = value;
+            if out != LAST {
+                r[out as usize] = value.clone();
+            }
+            last = value;
         }
-        r[self.tape.output as usize].clone()
+        if self.tape.result == LAST { last } else { r[self.tape.result as usize].clone() }
     }
 }
 
 #[inline(always)]
-fn get<N: Clone>(registers: &[N], i: Register) -> N {
-    registers[i as usize].clone()
+fn get<N: Clone>(registers: &[N], last: &N, i: Register) -> N {
+    if i == LAST { last.clone() } else { registers[i as usize].clone() }
 }

@@ -103,10 +103,10 @@ impl<R: Real, F: Flavor> Interval<R, F> {
         }
         // Odd powers increase: x^n = x |x|^(n-1), the even power rounded away from the result's end.
         let zero = zero(self.lo);
-        let even = |x: R| (power_down(x.abs(), n - 1), power_up(x.abs(), n - 1));
-        let (down, up) = even(self.lo);
+        let [low, high] = [self.lo.abs(), self.hi.abs()];
+        let (down, up) = (power_down(low, n - 1), power_up(low, n - 1));
         let lo = self.lo.mul_down(self.lo.select_lt(zero, up, down));
-        let (down, up) = even(self.hi);
+        let (down, up) = (power_down(high, n - 1), power_up(high, n - 1));
         let hi = self.hi.mul_up(self.hi.select_lt(zero, down, up));
         Self::new(lo, hi)
     }
@@ -287,17 +287,21 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
     #[inline(always)]
     fn scale(self, c: &Constant) -> Self {
         let [c_lo, c_hi] = R::Scalar::enclose(c);
-        let zero = R::Scalar::from_f64(0.0);
-        if c_lo != c_hi || F::SET && c_lo == zero {
+        let (zero, infinity) = (R::Scalar::from_f64(0.0), R::Scalar::INFINITY);
+        if !(zero < c_lo && c_hi < infinity || c_hi < zero && -infinity < c_lo) {
             return self * self.constant(c);
         }
-        // A point factor: its sign tells which end is which.
-        let factor = self.lo.splat(c_lo);
-        if c_lo < zero {
-            Self::new(self.hi.mul_down(factor), self.lo.mul_up(factor))
-        } else {
-            Self::new(self.lo.mul_down(factor), self.hi.mul_up(factor))
+        // A factor of one sign: the signs tell which product is which end.
+        let (least, most) = (self.lo.splat(c_lo), self.lo.splat(c_hi));
+        let (lo, hi) = if zero < c_lo { (self.lo, self.hi) } else { (self.hi, self.lo) };
+        if c_lo == c_hi {
+            return Self::new(lo.mul_down(least), hi.mul_up(least));
         }
+        let zero = self.lo.splat(zero);
+        Self::new(
+            lo.mul_down(lo.select_lt(zero, most, least)),
+            hi.mul_up(hi.select_lt(zero, least, most)),
+        )
     }
 
     #[inline(always)]

@@ -113,8 +113,13 @@ impl<S: Simd> Packet for Lanes<S> {
     const LANES: usize = 16;
 
     #[inline(always)]
-    fn from_fn(self, f: impl FnMut(usize) -> f32) -> Self {
-        Self(f32x16::simd_from(self.0.simd, std::array::from_fn(f)))
+    fn from_fn(self, mut f: impl FnMut(usize) -> f32) -> Self {
+        // A loop: `array::from_fn` would call a function for each lane.
+        let mut lanes = [0.0; 16];
+        for (i, lane) in lanes.iter_mut().enumerate() {
+            *lane = f(i);
+        }
+        Self(f32x16::simd_from(self.0.simd, lanes))
     }
     #[inline(always)]
     fn lane(self, i: usize) -> f32 {

@@ -471,6 +471,7 @@ impl Scalar for f32 {
     const INFINITY: Self = f32::INFINITY;
     const NAN: Self = f32::NAN;
 
+    #[inline(always)]
     fn from_f64(x: f64) -> Self {
         x as f32
     }
@@ -488,6 +489,7 @@ impl Scalar for f32 {
         let up = if f64::from(up) < hi { up.next_up() } else { up };
         [down, up]
     }
+    #[inline(always)]
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
@@ -509,6 +511,7 @@ impl Scalar for f64 {
     const INFINITY: Self = f64::INFINITY;
     const NAN: Self = f64::NAN;
 
+    #[inline(always)]
     fn from_f64(x: f64) -> Self {
         x
     }
@@ -523,6 +526,7 @@ impl Scalar for f64 {
     fn enclose_range(lo: f64, hi: f64) -> [Self; 2] {
         [lo, hi]
     }
+    #[inline(always)]
     fn to_f64(self) -> f64 {
         self
     }
@@ -546,6 +550,7 @@ macro_rules! nearest_scalar {
             const INFINITY: Self = Nearest(<$float>::INFINITY);
             const NAN: Self = Nearest(<$float>::NAN);
 
+            #[inline(always)]
             fn from_f64(x: f64) -> Self {
                 Nearest(<$float as Scalar>::from_f64(x))
             }
@@ -560,6 +565,7 @@ macro_rules! nearest_scalar {
             fn enclose_range(lo: f64, hi: f64) -> [Self; 2] {
                 [Self::from_f64(lo), Self::from_f64(hi)]
             }
+            #[inline(always)]
             fn to_f64(self) -> f64 {
                 self.0.to_f64()
             }

@@ -16,6 +16,23 @@ pub struct Domain {
     pub ball: Option<f64>,
 }
 
+type I = Interval<f64, Set>;
+
+/// 8 and 32 units of 2^-53, the largest relative error of one rounding.
+const UNITS_8: f64 = 8.0 * 0.5 * f64::EPSILON;
+const UNITS_16: f64 = 2.0 * UNITS_8;
+const UNITS_32: f64 = 4.0 * UNITS_8;
+
+/// The part of a line in the ball: `outer` contains every t there, `inner` only such t. A range with
+/// its ends in the wrong order is empty.
+#[derive(Clone, Copy, Debug)]
+struct Chord {
+    outer: [f64; 2],
+    inner: [f64; 2],
+}
+
+const NO_CHORD: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
 /// The part of a ray in a domain, enclosed from outside and from inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clip {
@@ -62,7 +79,7 @@ impl Domain {
 
     /// The part of a valid ray within `range` that lies in the domain; `None` if there is surely none.
     pub fn clip(&self, ray: Ray, range: [f64; 2]) -> Option<Clip> {
-        type I = Interval<f64, Set>;
+        let entire = I::new(f64::NEG_INFINITY, f64::INFINITY);
         let mut outer = range;
         let mut inner = range;
         let mut cut = |enter: I, leave: I| {
@@ -79,35 +96,94 @@ impl Domain {
                 }
                 continue;
             }
-            let at = |bound: f64| (I::point(bound) - o) / I::point(d);
+            // (bound - o) (1/d) has three roundings, and the ends of the range one more: less than
+            // 8 units of 2^-53, or the smallest normal number where the product underflows.
+            let inverse = 1.0 / d;
+            let at = |bound: f64| {
+                let t = (bound - o.lo) * inverse;
+                let error = t.abs() * UNITS_8 + f64::MIN_POSITIVE;
+                if t.is_finite() { I::new(t - error, t + error) } else { entire }
+            };
             if d > 0.0 { cut(at(min), at(max)) } else { cut(at(max), at(min)) }
         }
         if let Some(radius) = self.ball {
-            // |m + t d|^2 = r^2 with m from the centre to the origin.
-            let mut squares = [I::point(0.0); 3];
-            for axis in 0..3 {
-                let centre = (I::point(self.min[axis]) + I::point(self.max[axis])) / I::point(2.0);
-                let m = I::point(f64::from(ray.origin[axis])) - centre;
-                let d = I::point(f64::from(ray.direction[axis]));
-                squares[0] = squares[0] + d.sqr();
-                squares[1] = squares[1] + m * d;
-                squares[2] = squares[2] + m.sqr();
-            }
-            let [a, b, mm] = squares;
-            let discriminant = b.sqr() - a * (mm - I::point(radius).sqr());
-            if discriminant.hi < 0.0 {
+            let Chord { outer: [enter, leave], inner } =
+                self.chord(ray, radius).unwrap_or_else(|| self.chord_by_intervals(ray, radius));
+            if !(enter <= leave) {
                 return None;
             }
-            let certain = discriminant.lo >= 0.0;
-            let root = I::new(discriminant.lo.max(0.0), discriminant.hi).unary(Unary::Sqrt);
-            cut((-b - root) / a, (-b + root) / a);
-            if !certain {
-                inner = [1.0, 0.0];
-            }
+            let [begin, end] = inner;
+            cut(I::new(enter, begin), I::new(end, leave));
         }
         if !(outer[0] <= outer[1]) {
             return None;
         }
         Some(Clip { outer, inner: (inner[0] <= inner[1]).then_some(inner) })
+    }
+
+    /// The roots of `|m + t d|^2 = r^2`, with m from the centre to the origin, in plain arithmetic
+    /// with bounds for its errors; `None` where something may overflow or underflow.
+    ///
+    /// With u = 2^-53, w = |o| + (|min| + |max|)/2 >= |m|, p = sum w |d| and q = a (w^2 + r^2): m is
+    /// off by 2.1 u w, so `b = m d` by 5.1 u p and `|m|^2 - r^2` by 8.2 u (w^2 + r^2). As `b^2 <= p^2
+    /// <= q`, the discriminant `b^2 - a (|m|^2 - r^2)` is off by at most 25 u q. For the quotients by
+    /// a the errors add up to less than 12 u (p + root) / a.
+    fn chord(&self, ray: Ray, radius: f64) -> Option<Chord> {
+        let [mut a, mut b, mut p, mut mm, mut ww] = [0.0_f64; 5];
+        for axis in 0..3 {
+            let (o, d) = (f64::from(ray.origin[axis]), f64::from(ray.direction[axis]));
+            let (min, max) = (self.min[axis], self.max[axis]);
+            let m = o - 0.5 * (min + max);
+            let w = o.abs() + 0.5 * (min.abs() + max.abs());
+            a += d * d;
+            b += m * d;
+            p += w * d.abs();
+            mm += m * m;
+            ww += w * w;
+        }
+        let scale = ww + radius * radius;
+        if !(1e-200 < scale && scale < 1e200) {
+            return None;
+        }
+        let discriminant = b * b - a * (mm - radius * radius);
+        let error = UNITS_32 * (a * scale);
+        if discriminant < -error {
+            return Some(Chord { outer: NO_CHORD, inner: NO_CHORD });
+        }
+        let most = (discriminant + error).max(0.0).sqrt();
+        let slack = UNITS_16 * (p + most) / a;
+        let outer = [(-b - most) / a - slack, (-b + most) / a + slack];
+        if discriminant < error {
+            return Some(Chord { outer, inner: NO_CHORD });
+        }
+        let least = (discriminant - error).sqrt();
+        Some(Chord { outer, inner: [(-b - least) / a + slack, (-b + least) / a - slack] })
+    }
+
+    /// The same by intervals: slow, but without any condition.
+    fn chord_by_intervals(&self, ray: Ray, radius: f64) -> Chord {
+        let mut squares = [I::point(0.0); 3];
+        for axis in 0..3 {
+            let centre = (I::point(self.min[axis]) + I::point(self.max[axis])) / I::point(2.0);
+            let m = I::point(f64::from(ray.origin[axis])) - centre;
+            let d = I::point(f64::from(ray.direction[axis]));
+            squares[0] = squares[0] + d.sqr();
+            squares[1] = squares[1] + m * d;
+            squares[2] = squares[2] + m.sqr();
+        }
+        let [a, b, mm] = squares;
+        let discriminant = b.sqr() - a * (mm - I::point(radius).sqr());
+        if discriminant.hi < 0.0 {
+            return Chord { outer: NO_CHORD, inner: NO_CHORD };
+        }
+        let root = I::new(discriminant.lo.max(0.0), discriminant.hi).unary(Unary::Sqrt);
+        let (enter, leave) = ((-b - root) / a, (-b + root) / a);
+        let inner = if discriminant.lo >= 0.0 { [enter.hi, leave.lo] } else { NO_CHORD };
+        // What overflowed tells nothing.
+        let known = |x: f64, unknown: f64| if x.is_nan() { unknown } else { x };
+        Chord {
+            outer: [known(enter.lo, f64::NEG_INFINITY), known(leave.hi, f64::INFINITY)],
+            inner: [known(inner[0], f64::INFINITY), known(inner[1], f64::NEG_INFINITY)],
+        }
     }
 }

@@ -61,30 +61,33 @@ pub struct View {
     /// Rows.
     pub height: usize,
     frame: [DVec3; 3],
+    /// Half the image's height in space: at distance 1 in perspective.
+    extent: f64,
 }
 
 impl View {
     /// A view of `width` by `height` pixels.
     pub fn new(camera: Camera, width: usize, height: usize) -> Self {
-        Self { camera, width, height, frame: camera.frame() }
+        let extent = match camera.projection {
+            Projection::Perspective { fov } => (0.5 * fov).to_radians().tan(),
+            Projection::Orthographic { height } => 0.5 * height,
+        };
+        Self { camera, width, height, frame: camera.frame(), extent }
     }
 
     /// The ray through the centre of a pixel. Its direction is a unit vector before rounding to
     /// single precision, so that t is a distance to about seven digits.
+    #[inline]
     pub fn ray(&self, column: usize, row: usize) -> Ray {
         let [right, up, forward] = self.frame;
         // In units of half the image's height.
         let half = 0.5 * self.height as f64;
         let u = (column as f64 + 0.5 - 0.5 * self.width as f64) / half;
         let v = (0.5 * self.height as f64 - (row as f64 + 0.5)) / half;
+        let offset = self.extent * (u * right + v * up);
         let (origin, direction) = match self.camera.projection {
-            Projection::Perspective { fov } => {
-                let scale = (0.5 * fov).to_radians().tan();
-                (self.camera.eye, forward + scale * (u * right + v * up))
-            }
-            Projection::Orthographic { height } => {
-                (self.camera.eye + 0.5 * height * (u * right + v * up), forward)
-            }
+            Projection::Perspective { .. } => (self.camera.eye, forward + offset),
+            Projection::Orthographic { .. } => (self.camera.eye + offset, forward),
         };
         Ray::new(to_single(origin), to_single(direction.normalize()))
     }
@@ -92,15 +95,14 @@ impl View {
     /// The width in space of a pixel at distance `t` from the eye.
     pub fn footprint(&self, t: f64) -> f64 {
         match self.camera.projection {
-            Projection::Perspective { fov } => {
-                2.0 * t * (0.5 * fov).to_radians().tan() / self.height as f64
-            }
+            Projection::Perspective { .. } => 2.0 * t * self.extent / self.height as f64,
             Projection::Orthographic { height } => height / self.height as f64,
         }
     }
 }
 
 /// Rounds to single precision; -0 becomes 0.
+#[inline]
 fn to_single(v: DVec3) -> Vec3 {
     v.as_vec3() + Vec3::ZERO
 }

@@ -3,9 +3,9 @@
 use zeroset_expr::{Evaluator, Tape};
 use zeroset_ia::interval::Flavor;
 use zeroset_ia::{Interval, Kernel, Packet, Pair, Raw, Scalar, Set};
-use zeroset_raycast::Work;
+use zeroset_raycast::{Ray, Work};
 
-use super::slab::{Axis, Bounds, Lattice, Track};
+use super::slab::{Axis, Bounds, Lattice};
 
 /// Finest slab: 2^-40 of the domain.
 pub(super) const MAX_DEPTH: u32 = 40;
@@ -16,7 +16,9 @@ pub(super) struct Marcher {
     /// Its index in the tile.
     pub ray: usize,
     /// Its geometry.
-    pub track: Track,
+    pub line: Ray,
+    /// The range of t in which roots count: finite, unless it is unknown.
+    pub range: [f64; 2],
     /// Slabs are bisected this often before they count as hit.
     pub depth: u32,
 }
@@ -34,7 +36,7 @@ pub(super) enum Verdict {
 pub(super) trait Judge {
     /// The slab between two boundaries, at the marcher's last depth, may hold a root. `dropped` says
     /// whether an earlier slab was dropped without proof.
-    fn reached(&mut self, marcher: &Marcher, slab: [f64; 2], dropped: bool) -> Verdict;
+    fn reached(&mut self, axis: Axis, marcher: &Marcher, slab: [f64; 2], dropped: bool) -> Verdict;
     /// The march has ended for a ray, with or without an answer.
     fn finished(&mut self, marcher: &Marcher, dropped: bool, work: Work);
 }
@@ -42,7 +44,7 @@ pub(super) trait Judge {
 /// The march of a tile's rays, grouped by axis.
 pub(super) struct March<'a, J> {
     pub tape: &'a Tape,
-    pub domain: &'a zeroset_raycast::Domain,
+    pub bounds: &'a Bounds,
     pub groups: &'a [(Axis, Vec<Marcher>)],
     pub judge: &'a mut J,
 }
@@ -51,14 +53,11 @@ impl<J: Judge> March<'_, J> {
     /// Marches every group, a packet at a time.
     #[inline(always)]
     fn run<R: Packet, F: Flavor>(self, zero: R) {
-        let bounds = Bounds::new(self.domain);
         let mut evaluator = self.tape.evaluator(&Interval::<R, F>::point(zero));
         for (axis, marchers) in self.groups {
             for packet in marchers.chunks(R::LANES) {
-                // Lanes without a ray repeat the last one and are never active.
-                let track = |i: usize| packet[i.min(packet.len() - 1)].track;
-                let lattice = Lattice::new(zero, *axis, bounds, track);
-                march(&mut evaluator, &lattice, zero, packet, self.judge);
+                let lattice = Lattice::new(zero, *axis, self.bounds, packet);
+                march(&mut evaluator, &lattice, *axis, zero, packet, self.judge);
             }
         }
     }
@@ -91,6 +90,7 @@ impl<J: Judge> Kernel for SetMarch<'_, J> {
 fn march<R: Packet, F: Flavor>(
     evaluator: &mut Evaluator<'_, Interval<R, F>>,
     lattice: &Lattice<R>,
+    axis: Axis,
     zero: R,
     packet: &[Marcher],
     judge: &mut impl Judge,
@@ -107,17 +107,21 @@ fn march<R: Packet, F: Flavor>(
     // The rays that descended to each depth, and the slab's index there.
     let mut descended = [0_u64; MAX_DEPTH as usize + 1];
     descended[0] = alive;
-    let (mut depth, mut index) = (0_u32, 0_u64);
-    let mut near = lattice.boundary(0, 0);
-    'march: while alive != 0 {
-        let far = lattice.boundary(index + 1, depth);
+    let (mut depth, mut index, mut width) = (0_u32, 0_u64, lattice.length());
+    let mut near = lattice.boundary(0, width);
+    let [k, u, v] = axis.all();
+    while alive != 0 {
+        let far = lattice.boundary(index + 1, width);
         let active = descended[depth as usize] & alive & lattice.meets(&near, &far);
         if active != 0 {
             let boxes = lattice.boxes(&near, &far);
-            let value = evaluator.evaluate(boxes.map(
+            evaluator.bind(k, boxes[0]);
+            evaluator.bind(u, boxes[1]);
+            evaluator.bind(v, boxes[2]);
+            let value = evaluator.run(
                 #[inline(always)]
-                |[lo, hi]| Interval::new(lo, hi),
-            ));
+                |_| {},
+            );
             evaluations = evaluations + zero.select(active, one, zero);
             let mut vanishing = active & !zero.lt(value.lo) & !value.hi.lt(zero);
             if F::SET {
@@ -137,7 +141,8 @@ fn march<R: Packet, F: Flavor>(
                     let lane = reached.trailing_zeros();
                     reached &= reached - 1;
                     let marcher = &packet[lane as usize];
-                    if judge.reached(marcher, slab, dropped >> lane & 1 == 1) == Verdict::Stop {
+                    if judge.reached(axis, marcher, slab, dropped >> lane & 1 == 1) == Verdict::Stop
+                    {
                         alive &= !(1 << lane);
                     }
                 }
@@ -146,6 +151,7 @@ fn march<R: Packet, F: Flavor>(
             if descending != 0 {
                 depth += 1;
                 index *= 2;
+                width *= 0.5;
                 descended[depth as usize] = descending;
                 continue;
             }
@@ -154,10 +160,12 @@ fn march<R: Packet, F: Flavor>(
         while index & 1 == 1 {
             index >>= 1;
             depth -= 1;
+            width *= 2.0;
         }
         if depth == 0 {
-            break 'march;
+            break;
         }
+        alive &= lattice.goes_on_at(&far);
         index += 1;
         near = far;
     }

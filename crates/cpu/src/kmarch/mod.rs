@@ -9,19 +9,18 @@ mod finish;
 mod march;
 mod slab;
 
-use std::collections::BTreeMap;
-
-use zeroset_expr::{Function, Parameters, Tape};
+use zeroset_expr::{Parameters, Tape};
 use zeroset_ia::{Interval, Isa, Kernel, Nearest, Rounding, Scalar, Set, dispatch};
 use zeroset_raycast::{
-    Certificate, Clip, Domain, Error, Geometry, Hit, Hits, Intersector, Knob, KnobError, Method,
-    Progress, Ray, Rays, Report, Scene, Unsupported, Work, knob,
+    Certificate, Clip, Domain, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress,
+    Ray, Rays, Report, Scene, Unsupported, Work, knob,
 };
 
+use crate::implicit::Implicit;
 use crate::{normals, tiles};
 use finish::{Finding, Finish};
 use march::{Judge, MAX_DEPTH, March, Marcher, RawMarch, SetMarch, Verdict};
-use slab::{Axis, Bounds, Track};
+use slab::{Axis, Bounds, Clock};
 
 /// What ends the bisection of a ray's slabs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,16 +94,13 @@ impl Method for Kmarch {
     }
 
     fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
-        function(scene).map(|_| ())
+        Implicit::function(self.id(), scene).map(|_| ())
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Intersector>, Error> {
-        let function = function(scene)?.clone();
-        let domain =
-            Domain { ball: scene.domain.ball, ..Domain::new(scene.domain.min, scene.domain.max)? };
-        let tape = function.tape(&scene.parameters, PRECISION)?;
-        let form = Form::of(&tape, &domain);
-        Ok(Box::new(Prepared { method: self.clone(), function, domain, tape, form }))
+        let implicit = Implicit::new(self.id(), scene)?;
+        let form = Form::of(&implicit.tape, &implicit.domain)?;
+        Ok(Box::new(Prepared { method: self.clone(), implicit, form }))
     }
 
     fn knobs(&self) -> Vec<Knob> {
@@ -185,65 +181,74 @@ impl Method for Kmarch {
     }
 }
 
-/// Bits to which constants are known.
-const PRECISION: usize = 128;
-
-fn function(scene: &Scene) -> Result<&Function, Unsupported> {
-    match &scene.geometry {
-        Geometry::Implicit(function) => Ok(function),
-        _ => Err(Unsupported("kmarch casts rays at functions only".into())),
-    }
+/// The arithmetic that a scene needs.
+#[derive(Clone, Copy, Debug)]
+struct Form {
+    bounds: Bounds,
+    arithmetic: Arithmetic,
 }
 
-/// The arithmetic that a scene needs, from one evaluation over the whole domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Form {
+enum Arithmetic {
     /// Every sub-value is bounded in single precision.
     Raw,
     /// Some sub-value is unbounded or empty: single precision, set-based.
     Set,
-    /// Some sub-value is too large for single precision, all are bounded in double precision.
+    /// Something is too large for single precision: double precision, set-based.
     Double,
 }
 
+/// Single precision is used for numbers up to here.
+const LARGEST_SINGLE: f64 = f64::from_bits((1023 + 100) << 52);
+/// 2^900: coordinates are at most as large, so that nothing overflows on the way to a slab.
+const LARGEST: f64 = f64::from_bits((1023 + 900) << 52);
+
 impl Form {
-    /// The root-box check.
-    fn of(tape: &Tape, domain: &Domain) -> Self {
-        if is_bounded::<f32>(tape, domain) {
-            Self::Raw
-        } else if is_bounded::<f64>(tape, domain) {
-            Self::Double
-        } else {
-            Self::Set
+    /// The root-box check: one evaluation over the whole domain.
+    ///
+    /// # Errors
+    /// If the domain reaches beyond 2^900.
+    fn of(tape: &Tape, domain: &Domain) -> Result<Self, Error> {
+        let reach = domain.min.abs().max(domain.max.abs()).max_element();
+        if reach > LARGEST {
+            return Err(Error::Domain(format!(
+                "the domain reaches to {reach:e}; kmarch takes domains within 2^900 of the origin"
+            )));
         }
+        let (single, double) = (Bounds::new::<f32>(domain), Bounds::new::<f64>(domain));
+        let arithmetic = if reach > LARGEST_SINGLE {
+            Arithmetic::Double
+        } else if is_bounded::<f32>(tape, &single, LARGEST_SINGLE) {
+            Arithmetic::Raw
+        } else if is_bounded::<f64>(tape, &double, LARGEST) {
+            Arithmetic::Double
+        } else {
+            Arithmetic::Set
+        };
+        let bounds = if arithmetic == Arithmetic::Double { double } else { single };
+        Ok(Self { bounds, arithmetic })
     }
 }
 
-/// Are all sub-values over the domain non-empty and at most 2^100 (2^900 in double precision)?
-fn is_bounded<S: Scalar>(tape: &Tape, domain: &Domain) -> bool {
-    let limit = if size_of::<S>() == 4 { 2.0_f64.powi(100) } else { 2.0_f64.powi(900) };
-    let bounds = Bounds::<S>::new(domain);
+/// Are all sub-values over the domain non-empty and within the limit?
+fn is_bounded<S: Scalar>(tape: &Tape, bounds: &Bounds, limit: f64) -> bool {
     let zero = Interval::<S, Set>::point(S::from_f64(0.0));
     let mut bounded = true;
-    let point = bounds.0.map(|[lo, hi]| Interval::new(lo, hi));
-    tape.evaluator(&zero).visit(point, |x| {
-        bounded &= x.lo.to_f64() >= -limit && x.hi.to_f64() <= limit;
-    });
+    let point = bounds.ranges::<S>().map(|[lo, hi]| Interval::new(lo, hi));
+    tape.evaluator(&zero).visit(point, |x| bounded &= x.is_bounded_by(limit));
     bounded
 }
 
 struct Prepared {
     method: Kmarch,
-    function: Function,
-    domain: Domain,
-    tape: Tape,
+    implicit: Implicit,
     form: Form,
 }
 
 impl Intersector for Prepared {
     fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
-        self.tape = self.function.tape(values, PRECISION)?;
-        self.form = Form::of(&self.tape, &self.domain);
+        self.implicit.set_parameters(values)?;
+        self.form = Form::of(&self.implicit.tape, &self.implicit.domain)?;
         Ok(())
     }
 
@@ -253,83 +258,83 @@ impl Intersector for Prepared {
         hits: &mut Hits,
         progress: &Progress,
     ) -> Result<Report, Error> {
-        tiles::cast(rays, hits, progress, |tile| self.cast(tile, rays.range()))?;
-        normals::fill(&self.tape, rays, hits);
-        Ok(Report { work: hits.total_work(), device_time: None })
+        let mut report = tiles::cast(rays, hits, progress, |tile| self.cast(tile, rays.range()))?;
+        report.work += normals::fill(&self.implicit.tape, rays, hits);
+        Ok(report)
     }
 }
 
 impl Prepared {
     /// Answers the rays of a tile.
     fn cast(&self, rays: &[Ray], range: [f64; 2]) -> Vec<Hit> {
-        let clips: Vec<_> = rays.iter().map(|r| self.domain.clip(*r, range)).collect();
-        let mut groups: BTreeMap<Axis, Vec<Marcher>> = BTreeMap::new();
-        for (ray, clip) in clips.iter().enumerate() {
-            if let Some(clip) = clip {
-                let axis = Axis::of(rays[ray]);
-                groups.entry(axis).or_default().push(self.marcher(ray, rays[ray], *clip, axis));
+        let clips: Vec<_> = rays.iter().map(|r| self.implicit.domain.clip(*r, range)).collect();
+        let mut groups: Vec<(Axis, Vec<Marcher>)> = Vec::with_capacity(Axis::COUNT);
+        let mut last = 0;
+        for (ray, (line, clip)) in rays.iter().zip(&clips).enumerate() {
+            let Some(Clip { outer: range, .. }) = *clip else { continue };
+            let axis = Axis::of(*line);
+            // Neighbours mostly share their axis.
+            if groups.get(last).is_none_or(|(a, _)| *a != axis) {
+                last = groups.iter().position(|(a, _)| *a == axis).unwrap_or_else(|| {
+                    groups.push((axis, Vec::with_capacity(rays.len())));
+                    groups.len() - 1
+                });
             }
+            let depth = self.depth(*line, axis);
+            groups[last].1.push(Marcher { ray, line: *line, range, depth });
         }
-        let groups: Vec<_> = groups.into_iter().collect();
+        // A ray that misses the domain.
+        let miss = Hit::miss(self.method.proof(Certificate::PROVEN_MISS), Work::default());
         let mut answers = Answers {
             method: &self.method,
-            rays,
+            bounds: &self.form.bounds,
             clips: &clips,
-            // A ray that misses the domain.
-            hits: vec![
-                Hit::miss(self.proof(Certificate::PROVEN_MISS), Work::default());
-                rays.len()
-            ],
-            finish: (self.method.finish == Finishing::Certify).then(|| Finish::new(&self.tape)),
+            hits: vec![miss; rays.len()],
+            finish: (self.method.finish == Finishing::Certify)
+                .then(|| Finish::new(&self.implicit.tape)),
         };
-        let march =
-            March { tape: &self.tape, domain: &self.domain, groups: &groups, judge: &mut answers };
+        let march = March {
+            tape: &self.implicit.tape,
+            bounds: &self.form.bounds,
+            groups: &groups,
+            judge: &mut answers,
+        };
         let isa = self.method.isa.unwrap_or_else(Isa::best);
-        match (self.form, self.method.rounding) {
-            (Form::Raw, rounding) => dispatch(isa, rounding, RawMarch(march)),
-            (Form::Set, rounding) => dispatch(isa, rounding, SetMarch(march)),
-            (Form::Double, Rounding::Nearest) => SetMarch(march).run(Nearest(0.0_f64)),
-            (Form::Double, _) => SetMarch(march).run(0.0_f64),
+        match (self.form.arithmetic, self.method.rounding) {
+            (Arithmetic::Raw, rounding) => dispatch(isa, rounding, RawMarch(march)),
+            (Arithmetic::Set, rounding) => dispatch(isa, rounding, SetMarch(march)),
+            (Arithmetic::Double, Rounding::Nearest) => SetMarch(march).run(Nearest(0.0_f64)),
+            (Arithmetic::Double, _) => SetMarch(march).run(0.0_f64),
         }
         answers.hits
     }
 
-    /// The certificate, or what is left of it when rounding proves nothing.
-    fn proof(&self, certificate: Certificate) -> Certificate {
-        self.method.proof(certificate)
-    }
-
-    fn marcher(&self, ray: usize, r: Ray, clip: Clip, axis: Axis) -> Marcher {
-        let (track, length, resolution) = match self.form {
-            Form::Double => {
-                let bounds = Bounds::<f64>::new(&self.domain);
-                (Track::new(r, clip.outer, axis, &bounds), bounds.length(axis), bounds.resolution())
-            }
-            _ => {
-                let bounds = Bounds::<f32>::new(&self.domain);
-                (Track::new(r, clip.outer, axis, &bounds), bounds.length(axis), bounds.resolution())
-            }
-        };
-        // Slabs finer than the rounding of coordinates gain nothing.
-        let finest = (length / resolution).log2().floor().max(0.0) as u32;
+    /// How often the slabs of a ray are bisected.
+    fn depth(&self, line: Ray, axis: Axis) -> u32 {
+        let bounds = &self.form.bounds;
+        let length = bounds.length(axis);
         let stop = match self.method.stop {
             Stop::Depth(depth) => depth,
-            Stop::Width(width) => depth_for(length * track.pace[1], width),
+            Stop::Width(width) => {
+                bisections(length * Clock::new(line, axis, bounds.start(axis)).pace, width)
+            }
         };
         let levels = match self.method.finish {
             Finishing::Accept => 0,
             Finishing::Certify => self.method.levels,
         };
-        Marcher { ray, track, depth: (stop + levels).min(finest).min(MAX_DEPTH) }
+        // Slabs finer than the rounding of coordinates gain nothing.
+        (stop + levels).min(bounds.finest(axis)).min(MAX_DEPTH)
     }
 }
 
-/// The least depth at which slabs of a march `length` long are at most `width` wide.
-fn depth_for(length: f64, width: f64) -> u32 {
+/// How often a length is halved until it is at most `width`.
+fn bisections(length: f64, width: f64) -> u32 {
     (length / width).log2().ceil().clamp(0.0, f64::from(MAX_DEPTH)) as u32
 }
 
 impl Kmarch {
+    /// The certificate, or what is left of it when rounding proves nothing.
     fn proof(&self, certificate: Certificate) -> Certificate {
         match (self.rounding, certificate) {
             (Rounding::Nearest, Certificate::PROVEN_MISS) => Certificate::MISS,
@@ -343,26 +348,29 @@ impl Kmarch {
 /// The answers of a tile, and the finish that makes them.
 struct Answers<'a> {
     method: &'a Kmarch,
-    rays: &'a [Ray],
+    bounds: &'a Bounds,
     clips: &'a [Option<Clip>],
     hits: Vec<Hit>,
     finish: Option<Finish<'a>>,
 }
 
 impl Judge for Answers<'_> {
-    fn reached(&mut self, marcher: &Marcher, slab: [f64; 2], dropped: bool) -> Verdict {
-        let clip = self.clips[marcher.ray].expect("a marching ray meets the domain");
-        let [lo, hi] = marcher.track.t(slab);
+    fn reached(&mut self, axis: Axis, marcher: &Marcher, slab: [f64; 2], dropped: bool) -> Verdict {
+        let Marcher { ray, line, .. } = *marcher;
+        let clip = self.clips[ray].expect("a marching ray meets the domain");
+        let [lo, hi] = Clock::new(line, axis, self.bounds.start(axis)).range(slab);
         let slab = [lo.max(clip.outer[0]), hi.min(clip.outer[1])];
-        // At least a few units in the last place of t.
-        let width = match self.method.stop {
-            Stop::Width(width) => width,
-            Stop::Depth(_) => 2.0_f64.powi(self.method.levels as i32) * (hi - lo),
-        }
-        .max(8.0 * f64::EPSILON * hi.abs());
         let mut work = Work::default();
         let finding = match &mut self.finish {
-            Some(finish) => finish.settle(self.rays[marcher.ray], clip, slab, width, &mut work),
+            Some(finish) => {
+                let width = match self.method.stop {
+                    Stop::Width(width) => width,
+                    Stop::Depth(_) => 2.0_f64.powi(self.method.levels as i32) * (hi - lo),
+                };
+                // At least a few units in the last place of t.
+                let width = width.max(8.0 * f64::EPSILON * hi.abs());
+                finish.settle(line, clip, slab, width, &mut work)
+            }
             None => Finding::Unknown,
         };
         let (bracket, certificate) = match finding {
@@ -370,7 +378,7 @@ impl Judge for Answers<'_> {
             Finding::Root(bracket) => (Some(bracket), Certificate::PROVEN_HIT),
             Finding::Unknown => (Some([slab[0].min(slab[1]), slab[1]]), Certificate::POSSIBLE_HIT),
         };
-        let hit = &mut self.hits[marcher.ray];
+        let hit = &mut self.hits[ray];
         hit.work += work;
         let Some(bracket) = bracket else { return Verdict::Continue };
         hit.bracket = bracket;

@@ -7,10 +7,11 @@
 //! `s = d_U / |d_K|`: one product and one sum, whatever the depth, so that a ray's boxes do not
 //! depend on the slabs that its neighbours made the packet visit.
 
+use zeroset_ia::interval::Flavor;
 use zeroset_ia::{Interval, Packet, Real, Scalar, Set};
 use zeroset_raycast::{Domain, Ray};
 
-type I = Interval<f64, Set>;
+use super::march::Marcher;
 
 /// A common axis and direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -22,6 +23,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
+    pub(super) const COUNT: usize = 6;
+
     /// The dominant axis of a direction and its sign.
     pub(super) fn of(ray: Ray) -> Self {
         let d = ray.direction.abs();
@@ -35,99 +38,127 @@ impl Axis {
         Self { k, forward: ray.direction[k] > 0.0 }
     }
 
-    /// The two other axes.
-    pub(super) fn others(self) -> [usize; 2] {
-        [(self.k + 1) % 3, (self.k + 2) % 3]
+    /// K, and U and V in cyclic order.
+    pub(super) fn all(self) -> [usize; 3] {
+        [self.k, (self.k + 1) % 3, (self.k + 2) % 3]
     }
 }
 
-/// The domain's box in the scalar type of a march, rounded outward.
+/// The domain's box, rounded outward to what a march's scalar type can represent.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds<S>(pub [[S; 2]; 3]);
+pub(super) struct Bounds {
+    ends: [[f64; 2]; 3],
+    /// Depths at which slabs are about as thin as coordinates are rounded, by axis.
+    finest: [u32; 3],
+}
 
-impl<S: Scalar> Bounds<S> {
-    pub(super) fn new(domain: &Domain) -> Self {
-        Self([0, 1, 2].map(|axis| S::enclose_range(domain.min[axis], domain.max[axis])))
-    }
-
-    /// How far a march along the axis goes.
-    pub(super) fn length(&self, axis: Axis) -> f64 {
-        self.extent(axis)[1]
-    }
-
-    /// Four units in the last place of the largest coordinate.
-    pub(super) fn resolution(&self) -> f64 {
-        let largest = self.0.iter().flatten().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+impl Bounds {
+    pub(super) fn new<S: Scalar>(domain: &Domain) -> Self {
+        let ends = [0, 1, 2]
+            .map(|axis| S::enclose_range(domain.min[axis], domain.max[axis]).map(S::to_f64));
+        let largest = ends.iter().flatten().map(|x| x.abs()).fold(0.0, f64::max);
         let epsilon = if size_of::<S>() == 4 { f64::from(f32::EPSILON) } else { f64::EPSILON };
-        4.0 * epsilon * largest
+        let finest = ends.map(|[lo, hi]| ((hi - lo) / (4.0 * epsilon * largest)).log2() as u32);
+        Self { ends, finest }
     }
 
-    /// Where the march starts along K, and how far it goes.
-    fn extent(&self, axis: Axis) -> [f64; 2] {
-        let [lo, hi] = self.0[axis.k].map(S::to_f64);
-        let start = if axis.forward { lo } else { hi };
-        [start, (I::point(hi) - I::point(lo)).hi]
+    /// The box.
+    pub(super) fn ranges<S: Scalar>(&self) -> [[S; 2]; 3] {
+        self.ends.map(|ends| ends.map(S::from_f64))
+    }
+
+    /// Where a march along an axis starts.
+    pub(super) fn start(&self, axis: Axis) -> f64 {
+        self.ends[axis.k][if axis.forward { 0 } else { 1 }]
+    }
+
+    /// The depth beyond which slabs gain nothing.
+    pub(super) fn finest(&self, axis: Axis) -> u32 {
+        self.finest[axis.k]
+    }
+
+    /// How far it goes.
+    pub(super) fn length(&self, axis: Axis) -> f64 {
+        let [lo, hi] = self.ends[axis.k];
+        (Interval::<_, Set>::point(hi) - Interval::point(lo)).hi
     }
 }
 
-/// One ray's march, in double precision.
+/// The ray parameter along a march: `t = start + q pace`, in double precision.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Track {
-    /// U and V at q = 0.
-    pub origin: [[f64; 2]; 2],
-    /// Their slopes in q.
-    pub slope: [[f64; 2]; 2],
-    /// The range of q in which roots count.
-    pub range: [f64; 2],
-    /// t at q = 0.
-    start: I,
+pub(super) struct Clock {
+    start: f64,
     /// t a unit of q.
-    pub pace: [f64; 2],
+    pub pace: f64,
 }
 
-impl Track {
-    /// The march of a ray whose roots count for t in `range`.
-    pub(super) fn new<S: Scalar>(
-        ray: Ray,
-        range: [f64; 2],
-        axis: Axis,
-        bounds: &Bounds<S>,
-    ) -> Self {
-        let point = |x: f64| I::point(x);
-        let [start, _] = bounds.extent(axis);
-        let o = ray.origin.as_dvec3();
-        let d = ray.direction.as_dvec3();
-        let speed = point(d[axis.k].abs());
-        // t = (K - o_K) / d_K at the start.
-        let t0 = (point(start) - point(o[axis.k])) / point(d[axis.k]);
-        let others = axis.others();
-        let origin = others.map(|u| (point(o[u]) + t0 * point(d[u])).bounds());
-        let slope = others.map(|u| (point(d[u]) / speed).bounds());
-        let q = |t: f64| (point(t) - t0) * speed;
-        let range = [q(range[0]).lo, q(range[1]).hi];
-        let pace = (point(1.0) / speed).bounds();
-        Self { origin, slope, range, start: t0, pace }
+impl Clock {
+    /// The clock of a ray whose march along K starts at `start`.
+    pub(super) fn new(ray: Ray, axis: Axis, start: f64) -> Self {
+        let inverse = 1.0 / f64::from(ray.direction[axis.k]);
+        Self { start: (start - f64::from(ray.origin[axis.k])) * inverse, pace: inverse.abs() }
     }
 
-    /// The range of t between two boundaries, rounded outward.
-    pub(super) fn t(&self, [from, to]: [f64; 2]) -> [f64; 2] {
-        let pace = I::new(self.pace[0], self.pace[1]);
-        let at = |q: f64| self.start + I::point(q) * pace;
-        [at(from).lo, at(to).hi]
+    /// The range of t between two boundaries, rounded outward; NaN where it overflows. `start` has
+    /// three roundings, `q pace` two, the sum one and the end another: less than 8 units of 2^-53.
+    pub(super) fn range(&self, [from, to]: [f64; 2]) -> [f64; 2] {
+        let at = |q: f64| {
+            let error = UNITS_8 * (self.start.abs() + q * self.pace) + TINY;
+            [self.start + q * self.pace - error, self.start + q * self.pace + error]
+        };
+        [at(from)[0], at(to)[1]]
     }
 }
+
+/// 8 units of 2^-53, the largest relative error of a rounding in double precision.
+const UNITS_8: f64 = 4.0 * f64::EPSILON;
+/// More than the errors of all products that underflow.
+const TINY: f64 = f64::from_bits(123 << 52);
+
+/// The two ends of `x` with an error up to `e`, as numbers of the scalar type; for a nearest type,
+/// `x` twice. What is unknown is unbounded.
+///
+/// To single precision, rounding moves a number by 2^-24 of itself, or by 2^-150 near 0: moving it
+/// twice as far before is enough.
+#[inline(always)]
+fn ends<S: Scalar>(x: f64, e: f64) -> [S; 2] {
+    if !S::OUTWARD {
+        return [S::from_f64(x), S::from_f64(x)];
+    }
+    let (e, limit) = if size_of::<S>() == 4 {
+        (e + (x.abs() + e) * f64::from(f32::EPSILON) + TINY_SINGLE, f64::from(f32::MAX))
+    } else {
+        (e, f64::MAX)
+    };
+    let (lo, hi) = (x - e, x + e);
+    // NaN becomes unbounded, and what overflows stays on the right side of infinity.
+    let lo = if lo >= -limit { lo } else { f64::NEG_INFINITY };
+    let hi = if hi <= limit { hi } else { f64::INFINITY };
+    [
+        S::from_f64(if lo <= limit { lo } else { limit }),
+        S::from_f64(if hi >= -limit { hi } else { -limit }),
+    ]
+}
+
+/// 2^-148.
+const TINY_SINGLE: f64 = f64::from_bits((1023 - 148) << 52);
 
 /// Boundaries for the rays of a packet, in lanes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lattice<R: Real> {
     axis: Axis,
-    bounds: Bounds<R::Scalar>,
+    /// How far the march goes, and the last boundary: not before the end of the box.
     length: f64,
-    start: R::Scalar,
+    end: R::Scalar,
+    start: R,
+    /// U and V at q = 0.
     origin: [[R; 2]; 2],
+    /// Their slopes in q.
     slope: [[R; 2]; 2],
-    /// The range of q in each lane.
+    /// The range of q in which roots count.
     range: [R; 2],
+    /// The box along K, U and V.
+    bounds: [[R; 2]; 3],
 }
 
 /// Where the rays of a packet cross a boundary.
@@ -135,88 +166,146 @@ pub(super) struct Lattice<R: Real> {
 pub(super) struct Boundary<R: Real> {
     /// Its distance from the start along K: exact.
     pub q: R::Scalar,
-    k: [R::Scalar; 2],
-    u: [[R; 2]; 2],
+    /// The ends of K, U and V.
+    ends: [[R; 2]; 3],
 }
 
 impl<R: Packet> Lattice<R> {
+    /// The lattice of at most as many rays as there are lanes; other lanes repeat the last one.
+    ///
+    /// In units of u = 2^-53, the errors are: `t0 = (start - o_K) / d_K`, 3 t0; `u0 = o_U + t0 d_U`,
+    /// 4 t0 d_U + u0, and 1 for its ends; `s = d_U / |d_K|`, 2 s and 1; `q = (t - t0) |d_K|`, 3 t0
+    /// |d_K| + 2 q and 1. Each is less than 8 times the sum of absolute values below.
     #[inline(always)]
-    pub(super) fn new(
-        zero: R,
-        axis: Axis,
-        bounds: Bounds<R::Scalar>,
-        track: impl Fn(usize) -> Track,
-    ) -> Self {
-        let lanes = |f: &dyn Fn(&Track) -> [f64; 2]| {
-            [0, 1].map(|end| {
-                zero.from_fn(|i| {
-                    let [lo, hi] = f(&track(i));
-                    R::Scalar::enclose_range(lo, hi)[end]
-                })
-            })
-        };
-        let [start, length] = bounds.extent(axis);
+    pub(super) fn new(zero: R, axis: Axis, bounds: &Bounds, packet: &[Marcher]) -> Self {
+        let [k, u, v] = axis.all();
+        let mut o = [[0.0_f64; 64]; 3];
+        let mut d = [[1.0_f64; 64]; 3];
+        let mut t = [[0.0_f64; 64]; 2];
+        for i in 0..R::LANES {
+            let Marcher { line, range, .. } = &packet[i.min(packet.len() - 1)];
+            let (origin, direction) = (line.origin.to_array(), line.direction.to_array());
+            for (place, axis) in [k, u, v].into_iter().enumerate() {
+                o[place][i] = f64::from(origin[axis]);
+                d[place][i] = f64::from(direction[axis]);
+            }
+            t[0][i] = range[0];
+            t[1][i] = range[1];
+        }
+        let start = bounds.start(axis);
+        let zeros = [[R::Scalar::from_f64(0.0); 64]; 2];
+        let (mut origin, mut slope, mut range) = ([zeros; 2], [zeros; 2], zeros);
+        for i in 0..R::LANES {
+            let inverse = 1.0 / d[0][i];
+            let speed = d[0][i].abs();
+            let t0 = (start - o[0][i]) * inverse;
+            for place in [0, 1] {
+                let (o, d) = (o[place + 1][i], d[place + 1][i]);
+                let shift = t0 * d;
+                let [lo, hi] = ends(o + shift, UNITS_8 * (o.abs() + shift.abs()) + TINY);
+                origin[place][0][i] = lo;
+                origin[place][1][i] = hi;
+                let s = d * inverse.abs();
+                let [lo, hi] = ends(s, UNITS_8 * s.abs());
+                slope[place][0][i] = lo;
+                slope[place][1][i] = hi;
+            }
+            for end in [0, 1] {
+                let t = t[end][i];
+                let error = UNITS_8 * ((t.abs() + t0.abs()) * speed) + TINY;
+                range[end][i] = ends((t - t0) * speed, error)[end];
+            }
+        }
+        let [[p, q], [r, s]] = &origin;
+        let origin = [[lanes(zero, p), lanes(zero, q)], [lanes(zero, r), lanes(zero, s)]];
+        let [[p, q], [r, s]] = &slope;
+        let slope = [[lanes(zero, p), lanes(zero, q)], [lanes(zero, r), lanes(zero, s)]];
+        let range = [lanes(zero, &range[0]), lanes(zero, &range[1])];
+        let ranges = bounds.ranges::<R::Scalar>();
+        let mut bounds_in_lanes = [[zero; 2]; 3];
+        for (ends, axis) in bounds_in_lanes.iter_mut().zip([k, u, v]) {
+            *ends = [zero.splat(ranges[axis][0]), zero.splat(ranges[axis][1])];
+        }
+        let length = bounds.length(axis);
         Self {
             axis,
-            bounds,
             length,
-            start: R::Scalar::from_f64(start),
-            origin: [lanes(&|t| t.origin[0]), lanes(&|t| t.origin[1])],
-            slope: [lanes(&|t| t.slope[0]), lanes(&|t| t.slope[1])],
-            range: lanes(&|t| t.range),
+            end: R::Scalar::enclose_range(length, length)[1],
+            start: zero.splat(R::Scalar::from_f64(start)),
+            origin,
+            slope,
+            range,
+            bounds: bounds_in_lanes,
         }
     }
 
-    /// The boundary after `index` of the `2^depth` slabs. The same fraction gives the same boundary
-    /// at every depth, and boundaries increase.
+    /// How far the march goes.
     #[inline(always)]
-    pub(super) fn boundary(&self, index: u64, depth: u32) -> Boundary<R> {
-        let fraction = index as f64 / (1_u64 << depth) as f64;
-        // The far end is rounded up so that the slabs reach the end of the box.
-        let [near, far] = R::Scalar::enclose_range(self.length * fraction, self.length);
-        let q = if fraction < 1.0 { near } else { far };
+    pub(super) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The boundary after `index` slabs of the given width, a dyadic fraction of the length: the same
+    /// place gives the same boundary at every depth, and boundaries increase.
+    #[inline(always)]
+    pub(super) fn boundary(&self, index: u64, width: f64) -> Boundary<R> {
+        let exact = index as f64 * width;
+        let q = if exact < self.length { R::Scalar::from_f64(exact) } else { self.end };
+        let lanes = self.start.splat(q);
         let k = if self.axis.forward {
-            [self.start.add_down(q), self.start.add_up(q)]
+            [self.start.add_down(lanes), self.start.add_up(lanes)]
         } else {
-            [self.start.sub_down(q), self.start.sub_up(q)]
+            [self.start.sub_down(lanes), self.start.sub_up(lanes)]
         };
-        let lanes = self.range[0].splat(q);
-        Boundary {
-            q,
-            k,
-            u: [0, 1].map(
-                #[inline(always)]
-                |i| {
-                    let [o, s] = [self.origin[i], self.slope[i]];
-                    [o[0].add_down(lanes.mul_down(s[0])), o[1].add_up(lanes.mul_up(s[1]))]
-                },
-            ),
-        }
+        // Spelled out: a closure for `array::map` would lose the instruction set.
+        let [[u_lo, u_hi], [v_lo, v_hi]] = self.origin;
+        let [[r_lo, r_hi], [s_lo, s_hi]] = self.slope;
+        let u = [u_lo.add_down(lanes.mul_down(r_lo)), u_hi.add_up(lanes.mul_up(r_hi))];
+        let v = [v_lo.add_down(lanes.mul_down(s_lo)), v_hi.add_up(lanes.mul_up(s_hi))];
+        Boundary { q, ends: [k, u, v] }
     }
 
     /// The rays whose range meets the slab between two boundaries.
     #[inline(always)]
     pub(super) fn meets(&self, near: &Boundary<R>, far: &Boundary<R>) -> u64 {
-        let near = self.range[0].splat(near.q);
-        let far = self.range[0].splat(far.q);
-        self.range[0].le(far) & near.le(self.range[1])
+        let near = self.start.splat(near.q);
+        self.range[0].le(self.start.splat(far.q)) & near.le(self.range[1])
     }
 
-    /// X, Y and Z of the rays between two boundaries, cut with the domain's box; where a ray does not
+    /// The rays whose range does not end before a boundary.
+    #[inline(always)]
+    pub(super) fn goes_on_at(&self, boundary: &Boundary<R>) -> u64 {
+        self.start.splat(boundary.q).le(self.range[1])
+    }
+
+    /// K, U and V of the rays between two boundaries, cut with the domain's box; where a ray does not
     /// meet the slab, the ends may be in the wrong order.
     #[inline(always)]
-    pub(super) fn boxes(&self, near: &Boundary<R>, far: &Boundary<R>) -> [[R; 2]; 3] {
-        let [k_lo, k_hi] = self.bounds.0[self.axis.k];
-        let lo = near.k[0].min(far.k[0]).max(k_lo);
-        let hi = near.k[1].max(far.k[1]).min(k_hi);
-        let zero = self.range[0];
-        let mut boxes = [[zero.splat(lo), zero.splat(hi)]; 3];
-        for (i, axis) in self.axis.others().into_iter().enumerate() {
-            let [u_lo, u_hi] = self.bounds.0[axis];
-            let lo = near.u[i][0].min(far.u[i][0]).max(zero.splat(u_lo));
-            let hi = near.u[i][1].max(far.u[i][1]).min(zero.splat(u_hi));
-            boxes[axis] = [lo, hi];
-        }
-        boxes
+    pub(super) fn boxes<F: Flavor>(
+        &self,
+        near: &Boundary<R>,
+        far: &Boundary<R>,
+    ) -> [Interval<R, F>; 3] {
+        [self.cut(near, far, 0), self.cut(near, far, 1), self.cut(near, far, 2)]
     }
+
+    #[inline(always)]
+    fn cut<F: Flavor>(
+        &self,
+        near: &Boundary<R>,
+        far: &Boundary<R>,
+        place: usize,
+    ) -> Interval<R, F> {
+        let ([near_lo, near_hi], [far_lo, far_hi]) = (near.ends[place], far.ends[place]);
+        let [lo, hi] = self.bounds[place];
+        Interval::new(near_lo.min(far_lo).max(lo), near_hi.max(far_hi).min(hi))
+    }
+}
+
+#[inline(always)]
+fn lanes<R: Packet>(zero: R, x: &[R::Scalar; 64]) -> R {
+    zero.from_fn(
+        #[inline(always)]
+        |i| x[i],
+    )
 }
