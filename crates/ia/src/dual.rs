@@ -91,6 +91,7 @@ impl<N: Number, const K: usize> Mul for Dual<N, K> {
 impl<N: Number, const K: usize> Div for Dual<N, K> {
     type Output = Self;
     /// `(a/b)' = (a' - (a/b) b') / b`.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn div(self, o: Self) -> Self {
         let quotient = self.value.clone() / o.value.clone();
@@ -135,8 +136,11 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
         if n == 0 {
             return Self::constant_value(self.value.powi(0));
         }
-        let value = self.value.clone().powi(n);
-        let slope = self.value.clone().powi(n - 1).scale(&Constant::integer(n));
+        let x = self.value.clone();
+        let value = x.clone().powi(n);
+        // n x^(n-1); below 0 by a division, so that the exponent cannot overflow.
+        let power = if n > 0 { x.powi(n - 1) } else { value.clone() / x };
+        let slope = power.scale(&Constant::shared_integer(n));
         self.chain(value, slope)
     }
 

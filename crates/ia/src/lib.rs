@@ -25,11 +25,12 @@
 pub mod big;
 pub mod constant;
 pub mod dual;
-pub mod elementary;
+mod elementary;
 pub mod interval;
 pub mod lanes;
 pub mod number;
 pub mod plain;
+mod range;
 pub mod real;
 
 pub use big::BigInterval;
