@@ -22,10 +22,7 @@ pub(super) enum Sign {
 impl Sign {
     /// Is one sign above and the other below 0?
     pub(super) fn opposes(self, other: Self) -> bool {
-        matches!(
-            (self, other),
-            (Self::Negative, Self::Positive) | (Self::Positive, Self::Negative)
-        )
+        matches!((self, other), (Self::Negative, Self::Positive) | (Self::Positive, Self::Negative))
     }
 }
 

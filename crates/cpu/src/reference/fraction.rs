@@ -33,10 +33,9 @@ impl<N: Number> Fraction<N> {
             (None, None) => Self::new(f(a, b)),
             (Some(c), None) => Self { numerator: f(a, b * c.clone()), denominator: Some(c) },
             (None, Some(d)) => Self { numerator: f(a * d.clone(), b), denominator: Some(d) },
-            (Some(c), Some(d)) => Self {
-                numerator: f(a * d.clone(), b * c.clone()),
-                denominator: Some(c * d),
-            },
+            (Some(c), Some(d)) => {
+                Self { numerator: f(a * d.clone(), b * c.clone()), denominator: Some(c * d) }
+            }
         }
     }
 

@@ -42,8 +42,7 @@ impl<'a> Isolation<'a> {
     fn isolate(&mut self) -> Roots {
         let Some(ray) = self.ray else { return Roots::Unknown };
         self.work.intervals += 1;
-        let line =
-            |axis| Exact::line(f64::from(ray.origin[axis]), f64::from(ray.direction[axis]));
+        let line = |axis| Exact::line(f64::from(ray.origin[axis]), f64::from(ray.direction[axis]));
         let Some(p) = self.evaluator.evaluate([line(0), line(1), line(2)]).polynomial() else {
             return Roots::Unknown;
         };
@@ -130,9 +129,12 @@ impl Rung for Isolation<'_> {
             Roots::Some { distinct, multiple } => first(distinct, multiple, range, goal),
             Roots::All => {
                 // Every t is a root, the first where the domain begins.
-                let start = goal.clip.inner.map_or(f64::INFINITY, |inner| inner[0]);
-                let bracket = [range[0], range[0].max(start)];
-                if start <= range[1] { Found::Multiple(bracket) } else { Found::Stuck(range) }
+                let start =
+                    |inner: [f64; 2]| Some(inner[0].max(range[0])).filter(|&t| t <= inner[1]);
+                match goal.clip.inner.and_then(start) {
+                    Some(t) => Found::Multiple([range[0], t]),
+                    None => Found::Stuck(range),
+                }
             }
         };
         self.roots = Some(roots);

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use zeroset_expr::{Function, Parameters, Tape};
 use zeroset_ia::BigInterval;
 use zeroset_raycast::{
-    Domain, Error, Geometry, Hit, Hits, Intersector, Progress, Ray, Rays, Report, Request, Scene,
-    Unsupported, Work,
+    Domain, Error, Hit, Hits, Intersector, Method, Progress, Ray, Rays, Report, Request, Scene,
+    Work,
 };
 
 use super::curve::Curve;
@@ -14,6 +14,7 @@ use super::exact;
 use super::isolation::Isolation;
 use super::search::{Bisection, Found, Goal, Ladder, Rung, climb};
 use super::{Class, Reference, Truth};
+use crate::implicit::Implicit;
 use crate::{normals, tiles};
 
 /// The precisions above double: 128 bits, doubled up to the most that is allowed.
@@ -58,11 +59,10 @@ impl Tapes {
 
 impl PreparedReference {
     pub(super) fn new(method: Reference, scene: &Scene) -> Result<Self, Error> {
-        let Geometry::Implicit(function) = &scene.geometry else {
-            return Err(Unsupported("reference handles implicit functions only".into()).into());
-        };
-        let tapes = Tapes::new(&method, function, &scene.parameters)?;
-        Ok(Self { method, function: function.clone(), domain: scene.domain, tapes })
+        let domain = Implicit::new(method.id(), scene)?.domain;
+        let function = Implicit::function(method.id(), scene)?.clone();
+        let tapes = Tapes::new(&method, &function, &scene.parameters)?;
+        Ok(Self { method, function, domain, tapes })
     }
 
     /// The truth about the rays of the given indices, in their order.
@@ -120,7 +120,7 @@ impl PreparedReference {
             return Truth { class: Class::None, bracket: nothing, work: Work::default() };
         };
         ladder.iter_mut().for_each(|rung| rung.aim(ray));
-        let found = climb(ladder, clip.outer, &Goal { clip, width });
+        let found = climb(ladder, clip.outer, &Goal { clip, resolution: self.method.width, width });
         let (class, bracket) = match found.unwrap_or(Found::Stuck(clip.outer)) {
             Found::Nothing => (Class::None, nothing),
             Found::Simple(bracket) => (Class::Transversal, bracket),

@@ -23,6 +23,9 @@ pub(super) enum Found {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Goal {
     pub(super) clip: Clip,
+    /// Of the pieces that the ray is cut into, at least.
+    pub(super) resolution: f64,
+    /// Of the bracket of a root, at most.
     pub(super) width: f64,
 }
 
@@ -47,9 +50,19 @@ impl Goal {
     }
 
     /// Is the bracket narrow enough?
-    pub(super) fn is_met(&self, [lo, hi]: [f64; 2]) -> bool {
-        hi - lo <= self.width.max(4.0 * spacing(lo, hi))
+    pub(super) fn is_met(&self, bracket: [f64; 2]) -> bool {
+        is_within(bracket, self.width)
     }
+
+    /// Is the piece too narrow to be cut?
+    fn is_resolved(&self, piece: [f64; 2]) -> bool {
+        is_within(piece, self.resolution)
+    }
+}
+
+/// Is it at most so wide, or four units in the last place?
+fn is_within([lo, hi]: [f64; 2], width: f64) -> bool {
+    hi - lo <= width.max(4.0 * spacing(lo, hi))
 }
 
 /// The distance between the doubles near the larger of two.
@@ -289,7 +302,7 @@ impl<N: Enclosure> Rung for Bisection<'_, N> {
                 Some(Found::Nothing) => continue,
                 Some(found) => return found,
             };
-            let split = if found.is_none() && !goal.is_met(piece.ends) {
+            let split = if found.is_none() && !goal.is_resolved(piece.ends) {
                 self.split_point(piece.ends)
             } else {
                 None
@@ -309,5 +322,79 @@ impl<N: Enclosure> Rung for Bisection<'_, N> {
             }
         }
         Found::Nothing
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec3, Vec3};
+    use zeroset_expr::{Instruction, Op, Tape};
+    use zeroset_ia::{BigInterval, Constant};
+    use zeroset_raycast::Domain;
+
+    use super::super::enclosure::Double;
+    use super::*;
+
+    /// `x^2 + y^2 + z^2 - 1`
+    fn sphere() -> Tape {
+        let ops =
+            [Op::Sqr(0), Op::Sqr(1), Op::Sqr(2), Op::Add(3, 4), Op::Add(6, 5), Op::Offset(7, 0)];
+        let instructions =
+            ops.iter().enumerate().map(|(i, &op)| Instruction { op, out: i as u32 + 3 }).collect();
+        Tape::new(instructions, vec![Constant::from_f64(-1.0)], 8)
+    }
+
+    fn search<N: Enclosure>(context: &N, origin: Vec3, direction: Vec3) -> Found {
+        let tape = sphere();
+        let ray = Ray::new(origin, direction);
+        let domain = Domain::new(DVec3::splat(-2.0), DVec3::splat(2.0)).unwrap();
+        let clip = domain.clip(ray, [0.0, f64::INFINITY]).unwrap();
+        let mut search = Bisection::new(Curve::new(&tape, Some(2), context), 1000);
+        search.aim(ray);
+        let goal = Goal { clip, resolution: 1e-12, width: 1e-12 };
+        let found = search.search(clip.outer, &goal, &mut []);
+        eprintln!("{found:?} {:?} left {}", search.work(), search.left);
+        found
+    }
+
+    fn assert_sphere<N: Enclosure>(context: &N) {
+        let found = search(context, Vec3::new(-3.0, 0.0, 0.0), Vec3::X);
+        let Found::Simple([lo, hi]) = found else { panic!("{found:?}") };
+        assert!(lo <= 2.0 && 2.0 <= hi && hi - lo <= 1e-12);
+        // Beside the sphere, and past it.
+        let d = Vec3::new(1.0, 0.1, 0.0);
+        assert_eq!(search(context, Vec3::new(-3.0, 1.125, 0.0), d), Found::Nothing);
+        assert_eq!(search(context, Vec3::new(1.5, 0.0, 0.0), d), Found::Nothing);
+        // From inside.
+        let found = search(context, Vec3::ZERO, Vec3::new(0.0, 0.0, -0.25));
+        let Found::Simple([lo, hi]) = found else { panic!("{found:?}") };
+        assert!(lo <= 4.0 && 4.0 <= hi);
+        // A tangent: F >= 0 with a double root at 2.
+        let found = search(context, Vec3::new(-2.0, 1.0, 0.0), Vec3::X);
+        let Found::Stuck([lo, hi]) = found else { panic!("{found:?}") };
+        assert!(lo <= 2.0 && 2.0 - 1e-7 <= hi && hi - lo <= 1e-11);
+    }
+
+    #[test]
+    fn a_sphere_is_found_in_doubles() {
+        assert_sphere(&Double::point(0.0));
+    }
+
+    #[test]
+    fn a_sphere_is_found_in_longer_numbers() {
+        assert_sphere(&BigInterval::from_f64(0.0, 128));
+    }
+
+    #[test]
+    fn grids_can_be_halved() {
+        for range in [[0.0, 4.0], [1e6, 1e6 + 3.0], [-3.7, 9.1], [5.0, 5.0], [0.0, 0.0]] {
+            let [mut a, b] = grid(range);
+            assert!(a <= range[0] && range[1] <= b && a < b, "{range:?}");
+            while !is_within([a, b], 1e-12) {
+                let m = a + (b - a) / 2.0;
+                assert!(m - a == b - m && a < m, "{range:?}: {a} {m} {b}");
+                a = m;
+            }
+        }
     }
 }

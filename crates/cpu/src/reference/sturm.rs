@@ -54,7 +54,7 @@ impl Polynomial {
     }
 
     /// The degree; 0 for 0.
-    fn degree(&self) -> usize {
+    pub(super) fn degree(&self) -> usize {
         self.0.len().saturating_sub(1)
     }
 
@@ -198,7 +198,8 @@ mod tests {
         for x in [0.0, 1.0, -0.75, 3e-300, -5e-324, 1e300, 2f64.powi(60)] {
             let (n, d) = Dyadic::new(x).parts();
             // n is exact in a double unless the shift was upwards; compare crosswise.
-            let back: f64 = n.to_string().parse::<f64>().unwrap() / d.to_string().parse::<f64>().unwrap();
+            let back: f64 =
+                n.to_string().parse::<f64>().unwrap() / d.to_string().parse::<f64>().unwrap();
             assert!(back == x || d.bits() > 1000, "{x} {back}");
         }
         assert_eq!(Dyadic::new(-0.75).parts(), (BigInt::from(-3), BigInt::from(4)));

@@ -12,9 +12,10 @@ mod sturm;
 mod taylor;
 
 use zeroset_raycast::{
-    Certificate, Error, Geometry, Intersector, Knob, KnobError, Method, Scene, Unsupported, Work,
-    knob,
+    Certificate, Error, Intersector, Knob, KnobError, Method, Scene, Unsupported, Work, knob,
 };
+
+use crate::implicit::Implicit;
 
 pub use prepared::PreparedReference;
 
@@ -84,7 +85,6 @@ impl Reference {
     /// # Errors
     /// If the scene is unsupported, or its parameters are invalid.
     pub fn prepare_reference(&self, scene: &Scene) -> Result<PreparedReference, Error> {
-        self.supports(scene)?;
         PreparedReference::new(self.clone(), scene)
     }
 }
@@ -99,10 +99,7 @@ impl Method for Reference {
     }
 
     fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
-        match scene.geometry {
-            Geometry::Implicit(_) => Ok(()),
-            _ => Err(Unsupported("reference handles implicit functions only".into())),
-        }
+        Implicit::function(self.id(), scene).map(drop)
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Intersector>, Error> {
