@@ -4,7 +4,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use zeroset_ia::{Binary, Constant, Number, Unary};
 
-use super::enclosure::{Enclosure, Sign};
+use super::outward::{Outward, Sign};
 
 /// A polynomial of u in [0, 1] in scaled Bernstein form, `sum c_i u^i (1-u)^(n-i)`.
 ///
@@ -14,7 +14,7 @@ use super::enclosure::{Enclosure, Sign};
 #[derive(Clone, Debug)]
 pub(super) struct Scaled<N>(Vec<N>);
 
-impl<N: Enclosure> Scaled<N> {
+impl<N: Outward> Scaled<N> {
     /// The line from `start` at u = 0 to `end` at u = 1.
     pub(super) fn line(start: N, end: N) -> Self {
         Self(vec![start, end])
@@ -77,7 +77,7 @@ fn multiply_by_sum<N: Number>(terms: &mut Vec<N>) {
 }
 
 /// A natural number, in the context of `like`.
-fn natural<N: Enclosure>(like: &N, n: u128) -> N {
+fn natural<N: Outward>(like: &N, n: u128) -> N {
     const SPLIT: u32 = 53;
     if n >> SPLIT == 0 {
         return like.exact(n as f64);
@@ -87,7 +87,7 @@ fn natural<N: Enclosure>(like: &N, n: u128) -> N {
 }
 
 /// A form in the powers of `s = 2u - 1`, `sum a_k s^k`, in Bernstein form.
-pub(super) fn from_powers<N: Enclosure>(powers: Vec<N>) -> Vec<N> {
+pub(super) fn from_powers<N: Outward>(powers: Vec<N>) -> Vec<N> {
     let mut form: Option<Vec<N>> = None;
     for (k, a) in powers.into_iter().rev().enumerate() {
         // Horner's rule on homogeneous forms: times u - v, plus a (u + v)^k.
@@ -105,7 +105,7 @@ pub(super) fn from_powers<N: Enclosure>(powers: Vec<N>) -> Vec<N> {
 }
 
 /// The coefficients on [0, u] and on [u, 1] by de Casteljau's scheme, for u in eighths.
-pub(super) fn split<N: Enclosure>(mut coefficients: Vec<N>, eighths: u8) -> [Vec<N>; 2] {
+pub(super) fn split<N: Outward>(mut coefficients: Vec<N>, eighths: u8) -> [Vec<N>; 2] {
     let mut left = Vec::with_capacity(coefficients.len());
     for last in (0..coefficients.len()).rev() {
         left.push(coefficients[0].clone());
@@ -117,13 +117,13 @@ pub(super) fn split<N: Enclosure>(mut coefficients: Vec<N>, eighths: u8) -> [Vec
 }
 
 /// The sign that the polynomial has on all of [0, 1].
-pub(super) fn sign<N: Enclosure>(coefficients: &[N]) -> Sign {
+pub(super) fn sign<N: Outward>(coefficients: &[N]) -> Sign {
     let first = coefficients[0].sign();
     if coefficients.iter().all(|c| c.sign() == first) { first } else { Sign::Unknown }
 }
 
 /// The derivative by u, enclosed on all of [0, 1], if it has one sign there.
-pub(super) fn slope<N: Enclosure>(coefficients: &[N]) -> Option<N> {
+pub(super) fn slope<N: Outward>(coefficients: &[N]) -> Option<N> {
     let n = coefficients.len() - 1;
     let mut hull: Option<N> = None;
     for pair in coefficients.windows(2) {
@@ -138,7 +138,7 @@ pub(super) fn slope<N: Enclosure>(coefficients: &[N]) -> Option<N> {
 }
 
 /// Is the uncertainty of single coefficients comparable to the spread of all?
-pub(super) fn is_blurred<N: Enclosure>(coefficients: &[N]) -> bool {
+pub(super) fn is_blurred<N: Outward>(coefficients: &[N]) -> bool {
     let mut widest = 0.0_f64;
     let mut hull = [f64::INFINITY, f64::NEG_INFINITY];
     for c in coefficients {
@@ -149,28 +149,28 @@ pub(super) fn is_blurred<N: Enclosure>(coefficients: &[N]) -> bool {
     !(8.0 * widest < hull[1] - hull[0])
 }
 
-impl<N: Enclosure> Add for Scaled<N> {
+impl<N: Outward> Add for Scaled<N> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         self.zip(other, |a, b| a + b)
     }
 }
 
-impl<N: Enclosure> Sub for Scaled<N> {
+impl<N: Outward> Sub for Scaled<N> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         self.zip(other, |a, b| a - b)
     }
 }
 
-impl<N: Enclosure> Neg for Scaled<N> {
+impl<N: Outward> Neg for Scaled<N> {
     type Output = Self;
     fn neg(self) -> Self {
         self.map(|c| -c)
     }
 }
 
-impl<N: Enclosure> Mul for Scaled<N> {
+impl<N: Outward> Mul for Scaled<N> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let degree = self.degree() + other.degree();
@@ -196,7 +196,7 @@ fn collect<N>(terms: Vec<Option<N>>) -> Scaled<N> {
     Scaled(terms.into_iter().map(|t| t.expect("each power has a term")).collect())
 }
 
-impl<N: Enclosure> Div for Scaled<N> {
+impl<N: Outward> Div for Scaled<N> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
         match &other.0[..] {
@@ -206,7 +206,7 @@ impl<N: Enclosure> Div for Scaled<N> {
     }
 }
 
-impl<N: Enclosure> Number for Scaled<N> {
+impl<N: Outward> Number for Scaled<N> {
     fn constant(&self, c: &Constant) -> Self {
         Self(vec![self.0[0].constant(c)])
     }
@@ -270,7 +270,7 @@ impl<N: Enclosure> Number for Scaled<N> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::enclosure::Double;
+    use super::super::outward::Double;
     use super::*;
 
     fn doubles(x: &[f64]) -> Vec<Double> {

@@ -143,3 +143,45 @@ impl<N: Number> Number for Fraction<N> {
         Self::new(self.quotient().binary(f, other.quotient()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::outward::{Double, Outward, Sign};
+    use super::*;
+
+    /// Checks numerator / denominator against the value, for x = 3/4.
+    fn check(f: impl Fn(Fraction<Double>) -> Fraction<Double>, value: f64) {
+        let result = f(Fraction::new(Double::point(0.75)));
+        assert!(result.denominator.is_some());
+        let [lo, hi] = result.quotient().bounds();
+        assert!(lo <= value && value <= hi && hi - lo < 1e-12, "{value} in [{lo}, {hi}]");
+    }
+
+    #[test]
+    fn operations_agree_with_their_values() {
+        let x: f64 = 0.75;
+        let two = Constant::from_f64(2.0);
+        let inverse = |x: Fraction<Double>| x.powi(-1);
+        check(|x| inverse(x.clone()) + x, 1.0 / x + x);
+        check(|x| x.clone() - inverse(x), x - 1.0 / x);
+        check(|x| inverse(x.clone()) * (x.clone() + inverse(x)), (x + 1.0 / x) / x);
+        check(|x| inverse(x.clone()) / (x.clone() - inverse(x)), 1.0 / x / (x - 1.0 / x));
+        check(|x| inverse(x.clone()) + inverse(x.sqr()), 1.0 / x + 1.0 / (x * x));
+        check(|x| inverse(x).offset(&two).scale(&two), 2.0 * (1.0 / x + 2.0));
+        check(|x| -inverse(x).powi(3), -1.0 / x.powi(3));
+        check(|x| inverse(x).powi(-2) / inverse(x_squared()), x.powi(4));
+        check(|x| x.unary(Unary::Tan), x.tan());
+    }
+
+    fn x_squared() -> Fraction<Double> {
+        Fraction::new(Double::point(0.75)).sqr()
+    }
+
+    #[test]
+    fn a_pole_is_a_vanishing_denominator() {
+        let x = Fraction::new(Double::new(-1.0, 1.0));
+        let f = x.powi(-1);
+        assert_eq!(f.numerator.sign(), Sign::Positive);
+        assert_eq!(f.quotient().bounds(), [f64::NEG_INFINITY, f64::INFINITY]);
+    }
+}

@@ -2,10 +2,10 @@
 
 mod bernstein;
 mod curve;
-mod enclosure;
 mod exact;
 mod fraction;
 mod isolation;
+mod outward;
 mod prepared;
 mod search;
 mod sturm;

@@ -9,9 +9,9 @@ use zeroset_raycast::{
 };
 
 use super::curve::Curve;
-use super::enclosure::Double;
 use super::exact;
 use super::isolation::Isolation;
+use super::outward::Double;
 use super::search::{Bisection, Found, Goal, Ladder, Rung, climb};
 use super::{Class, Reference, Truth};
 use crate::implicit::Implicit;

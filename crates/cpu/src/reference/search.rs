@@ -4,7 +4,7 @@ use zeroset_raycast::{Clip, Ray, Work};
 
 use super::bernstein;
 use super::curve::{Curve, Expansion};
-use super::enclosure::{Enclosure, Sign};
+use super::outward::{Outward, Sign};
 
 /// What a search found in a range of t.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +91,7 @@ pub(super) fn climb(ladder: &mut Ladder<'_>, range: [f64; 2], goal: &Goal) -> Op
 }
 
 /// Bisection with derivative tests, then interval Newton.
-pub(super) struct Bisection<'a, N: Enclosure> {
+pub(super) struct Bisection<'a, N: Outward> {
     curve: Curve<'a, N>,
     /// Pieces to look at for each ray.
     budget: u32,
@@ -114,7 +114,7 @@ enum Verdict<N> {
     Open,
 }
 
-impl<'a, N: Enclosure> Bisection<'a, N> {
+impl<'a, N: Outward> Bisection<'a, N> {
     pub(super) fn new(curve: Curve<'a, N>, budget: u32) -> Self {
         Self { curve, budget, left: budget }
     }
@@ -219,7 +219,7 @@ struct Split {
     sign: Sign,
 }
 
-fn verdict<N: Enclosure>(terms: &[N], [a, b]: [f64; 2]) -> Verdict<N> {
+fn verdict<N: Outward>(terms: &[N], [a, b]: [f64; 2]) -> Verdict<N> {
     if matches!(bernstein::sign(terms), Sign::Positive | Sign::Negative) {
         return Verdict::Free;
     }
@@ -229,7 +229,7 @@ fn verdict<N: Enclosure>(terms: &[N], [a, b]: [f64; 2]) -> Verdict<N> {
     }
 }
 
-impl<N: Enclosure> Piece<N> {
+impl<N: Outward> Piece<N> {
     /// The root that a piece too narrow to split is known to contain.
     fn certain(&self, goal: &Goal) -> Option<Found> {
         let [a, b] = self.ends;
@@ -267,7 +267,7 @@ fn grid([lo, hi]: [f64; 2]) -> [f64; 2] {
     if a < b { [a, b] } else { [a, a + cell] }
 }
 
-impl<N: Enclosure> Rung for Bisection<'_, N> {
+impl<N: Outward> Rung for Bisection<'_, N> {
     fn aim(&mut self, ray: Ray) {
         self.curve.aim(ray);
         self.left = self.budget;
@@ -332,7 +332,7 @@ mod tests {
     use zeroset_ia::{BigInterval, Constant};
     use zeroset_raycast::Domain;
 
-    use super::super::enclosure::Double;
+    use super::super::outward::Double;
     use super::*;
 
     /// `x^2 + y^2 + z^2 - 1`
@@ -344,7 +344,7 @@ mod tests {
         Tape::new(instructions, vec![Constant::from_f64(-1.0)], 8)
     }
 
-    fn search<N: Enclosure>(context: &N, origin: Vec3, direction: Vec3) -> Found {
+    fn search<N: Outward>(context: &N, origin: Vec3, direction: Vec3) -> Found {
         let tape = sphere();
         let ray = Ray::new(origin, direction);
         let domain = Domain::new(DVec3::splat(-2.0), DVec3::splat(2.0)).unwrap();
@@ -357,7 +357,7 @@ mod tests {
         found
     }
 
-    fn assert_sphere<N: Enclosure>(context: &N) {
+    fn assert_sphere<N: Outward>(context: &N) {
         let found = search(context, Vec3::new(-3.0, 0.0, 0.0), Vec3::X);
         let Found::Simple([lo, hi]) = found else { panic!("{found:?}") };
         assert!(lo <= 2.0 && 2.0 <= hi && hi - lo <= 1e-12);

@@ -20,9 +20,8 @@ fn sum(p: [Poly; 3]) -> Poly {
 
 #[test]
 fn goursat() {
-    let tally = check("x^4+y^4+z^4-1", 1.125, 400, |p| {
-        &sum(p.map(|v| v.pow(4))) - &Poly::integer(1)
-    });
+    let tally =
+        check("x^4+y^4+z^4-1", 1.125, 400, |p| &sum(p.map(|v| v.pow(4))) - &Poly::integer(1));
     assert_eq!(tally.undecidable, 0);
     assert!(tally.transversal > 100 && tally.none > 50, "{tally:?}");
 }
@@ -110,10 +109,9 @@ fn chebyshev_towers() {
     let six = "(32*x^6-48*x^4+18*x^2-1)+(32*y^6-48*y^4+18*y^2-1)+(32*z^6-48*z^4+18*z^2-1)";
     let tally = check(six, 1.0625, 100, |p| sum(p.map(|v| chebyshev(6, &v))));
     assert_eq!(tally.undecidable, 0);
-    let seven = "(64*x^7-112*x^5+56*x^3-7*x)+(64*y^7-112*y^5+56*y^3-7*y)+(64*z^7-112*z^5+56*z^3-7*z)+1";
-    let tally = check(seven, 1.125, 60, |p| {
-        &sum(p.map(|v| chebyshev(7, &v))) + &Poly::integer(1)
-    });
+    let seven =
+        "(64*x^7-112*x^5+56*x^3-7*x)+(64*y^7-112*y^5+56*y^3-7*y)+(64*z^7-112*z^5+56*z^3-7*z)+1";
+    let tally = check(seven, 1.125, 60, |p| &sum(p.map(|v| chebyshev(7, &v))) + &Poly::integer(1));
     assert_eq!(tally.undecidable, 0);
     let one = |v| format!("(2048*{v}^12-6144*{v}^10+6912*{v}^8-3584*{v}^6+840*{v}^4-72*{v}^2+1)");
     let twelve = format!("{}+{}+{}", one("x"), one("y"), one("z"));

@@ -148,7 +148,10 @@ pub(crate) fn judge(
             continue;
         }
         let t = truth.bracket[1].abs();
-        assert!(truth.bracket[1] - truth.bracket[0] <= (5.0 * (t.next_up() - t)).max(1e-12), "{says}");
+        assert!(
+            truth.bracket[1] - truth.bracket[0] <= (5.0 * (t.next_up() - t)).max(1e-12),
+            "{says}"
+        );
         let (inner_lo, inner_hi) = (lo.clone().max(a), hi.clone().min(b));
         assert!(roots.within(&inner_lo, &inner_hi) > 0, "{says}");
         if truth.class == Class::Transversal {

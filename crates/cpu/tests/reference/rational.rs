@@ -59,9 +59,7 @@ impl Poly {
     }
 
     fn derivative(&self) -> Self {
-        trimmed(
-            self.0.iter().enumerate().skip(1).map(|(k, c)| c * fraction(k as i64, 1)).collect(),
-        )
+        trimmed(self.0.iter().enumerate().skip(1).map(|(k, c)| c * fraction(k as i64, 1)).collect())
     }
 
     /// Quotient and remainder.

@@ -65,7 +65,8 @@ fn waves() {
 
 #[test]
 fn diamond() {
-    let equation = "sin(x)*sin(y)*sin(z)+sin(x)*cos(y)*cos(z)+cos(x)*sin(y)*cos(z)+cos(x)*cos(y)*sin(z)";
+    let equation =
+        "sin(x)*sin(y)*sin(z)+sin(x)*cos(y)*cos(z)+cos(x)*sin(y)*cos(z)+cos(x)*cos(y)*sin(z)";
     let batch = RayBatch::new(rays(&mut Noise(12), 5.0, 200));
     let tally = sample(equation, 5.0, &batch, |p| {
         let [sx, sy, sz] = p.to_array().map(f64::sin);
@@ -118,12 +119,21 @@ fn a_pole_is_no_root() {
 fn jumps_are_no_roots() {
     // Each changes sign at a jump and is nowhere 0.
     let ray = Ray::new(Vec3::new(-0.75, 0.0, 0.0), Vec3::X);
-    let batch = RayBatch::new(vec![ray, Ray::new(Vec3::new(-0.7, 0.1, 0.2), Vec3::new(0.3, 0.1, 0.0))]);
-    for equation in
-        ["floor(x)+1/2", "ceil(x)-1/2", "sign(x)-1/2", "mod(x,1)-x-1/2", "atan2(x,-1)", "x-2*floor(x+1)+7/8"]
-    {
+    let batch =
+        RayBatch::new(vec![ray, Ray::new(Vec3::new(-0.7, 0.1, 0.2), Vec3::new(0.3, 0.1, 0.0))]);
+    for equation in [
+        "floor(x)+1/2",
+        "ceil(x)-1/2",
+        "sign(x)-1/2",
+        "mod(x,1)-x-1/2",
+        "atan2(x,-1)",
+        "x-2*floor(x+1)+7/8",
+    ] {
         for truth in classify(&scene(equation, 0.875), &batch) {
-            assert!(!truth.certificate().contains(zeroset_raycast::Certificate::ROOT), "{equation} {truth:?}");
+            assert!(
+                !truth.certificate().contains(zeroset_raycast::Certificate::ROOT),
+                "{equation} {truth:?}"
+            );
             assert!(truth.class == Class::None || truth.bracket[0] <= 2.5, "{equation} {truth:?}");
         }
     }

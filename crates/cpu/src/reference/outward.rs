@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use zeroset_ia::{BigInterval, Constant, Interval, Number, Set};
+use zeroset_ia::{BigInterval, Constant, Enclosure, Interval, Number, Set};
 
 /// What is certain of a number's sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,11 +30,9 @@ impl Sign {
 pub(super) type Double = Interval<f64, Set>;
 
 /// A set-based outward interval; its ends may be finer than doubles.
-pub(super) trait Enclosure: Number {
+pub(super) trait Outward: Enclosure {
     /// The interval between two doubles, in the context of `self`.
     fn between(&self, lo: f64, hi: f64) -> Self;
-    /// All numbers, in the context of `self`.
-    fn entire(&self) -> Self;
     /// Doubles around it; NaN if it is empty.
     fn bounds(&self) -> [f64; 2];
     /// The sign that all members have.
@@ -51,10 +49,6 @@ pub(super) trait Enclosure: Number {
     fn exact(&self, x: f64) -> Self {
         self.between(x, x)
     }
-    /// Does it contain no number?
-    fn is_empty(&self) -> bool {
-        self.bounds()[0].is_nan()
-    }
     /// Is it bounded, and not empty?
     fn is_bounded(&self) -> bool {
         self.bounds().iter().all(|x| x.is_finite())
@@ -69,13 +63,9 @@ fn weights(eighths: u8) -> [&'static Constant; 2] {
     [&EIGHTHS[8 - k], &EIGHTHS[k]]
 }
 
-impl Enclosure for Double {
+impl Outward for Double {
     fn between(&self, lo: f64, hi: f64) -> Self {
         Self::new(lo, hi)
-    }
-
-    fn entire(&self) -> Self {
-        Self::new(f64::NEG_INFINITY, f64::INFINITY)
     }
 
     #[inline(always)]
@@ -116,13 +106,9 @@ impl Enclosure for Double {
     }
 }
 
-impl Enclosure for BigInterval {
+impl Outward for BigInterval {
     fn between(&self, lo: f64, hi: f64) -> Self {
         Self::from_bounds(lo, hi, self.precision())
-    }
-
-    fn entire(&self) -> Self {
-        Self::entire(self.precision())
     }
 
     fn bounds(&self) -> [f64; 2] {
@@ -147,11 +133,45 @@ impl Enclosure for BigInterval {
         self.hull(other)
     }
 
-    fn is_empty(&self) -> bool {
-        Self::is_empty(self)
-    }
-
     fn is_bounded(&self) -> bool {
         Self::is_bounded(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use zeroset_ia::Unary;
+
+    use super::*;
+
+    fn check<N: Outward>(context: &N) {
+        let between = |lo, hi| context.between(lo, hi);
+        assert_eq!(between(1.0, 2.0).sign(), Sign::Positive);
+        assert_eq!(between(-2.0, -f64::MIN_POSITIVE).sign(), Sign::Negative);
+        assert_eq!(between(0.0, 0.0).sign(), Sign::Zero);
+        assert_eq!(between(0.0, 1.0).sign(), Sign::Unknown);
+        assert_eq!(context.entire().sign(), Sign::Unknown);
+        assert!(!context.entire().is_bounded() && between(-1.0, 1.0).is_bounded());
+        let nothing = between(-2.0, -1.0).unary(Unary::Sqrt);
+        assert_eq!(nothing.sign(), Sign::Undefined);
+        assert!(!nothing.is_bounded());
+        assert_eq!(between(-1.0, 0.5).union(&between(0.25, 3.0)).bounds(), [-1.0, 3.0]);
+        for (eighths, value) in [(0, 1.0), (3, 1.75), (4, 2.0), (8, 3.0)] {
+            let [lo, hi] = between(1.0, 1.0).blend(&between(3.0, 3.0), eighths).bounds();
+            assert!(lo <= value && value <= hi && hi - lo < 1e-14);
+        }
+    }
+
+    #[test]
+    fn both_precisions_mean_the_same() {
+        check(&Double::point(0.0));
+        check(&BigInterval::from_f64(0.0, 128));
+    }
+
+    #[test]
+    fn halves_of_subnormals_are_enclosed() {
+        let least = f64::from_bits(1);
+        let [lo, hi] = Double::point(least).blend(&Double::point(0.0), 4).bounds();
+        assert!(lo <= 0.0 && hi >= least);
     }
 }
