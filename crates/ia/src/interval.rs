@@ -266,8 +266,8 @@ impl<R: Real, F: Flavor> Div for Interval<R, F> {
         }
         // 0 inside the divisor: everything, unless the dividend is 0 alone.
         let infinity = zero.splat(R::Scalar::INFINITY);
-        let low = a.select_lt(zero, -infinity, zero.select_lt(b, -infinity, zero));
-        let high = a.select_lt(zero, infinity, zero.select_lt(b, infinity, zero));
+        let within = |end: R, zero_end: R| a.select_lt(zero, end, zero.select_lt(b, end, zero_end));
+        let (low, high) = (within(-infinity, zero.down()), within(infinity, zero.up()));
         let around = Self::new(c.select_lt(zero, low, lo), c.select_lt(zero, high, hi));
         // Divisor 0 alone: nothing.
         let nan = zero.splat(R::Scalar::NAN);

@@ -17,7 +17,7 @@ impl BigInterval {
         if !(lo <= hi) || lo == f64::INFINITY || hi == f64::NEG_INFINITY {
             return Self::empty(precision);
         }
-        Self::new(BigFloat::from_f64(lo, 64), BigFloat::from_f64(hi, 64), precision)
+        Self::new(from_double(lo), from_double(hi), precision)
     }
 
     /// An enclosure of a decimal number such as `3`, `0.1`, `1e-3` or `-2.5E+10`, a point if the
@@ -120,6 +120,19 @@ fn parse_exponent(text: &str) -> Option<i64> {
     }
     let magnitude = digits.parse().unwrap_or(i64::MAX);
     Some(if negative { -magnitude } else { magnitude })
+}
+
+/// The exact value of a double that is not NaN.
+pub(super) fn from_double(x: f64) -> BigFloat {
+    // The library halves subnormal numbers.
+    const SCALE: i32 = 64;
+    if x == 0.0 || x.abs() >= f64::MIN_POSITIVE {
+        return BigFloat::from_f64(x, 64);
+    }
+    let mut y = BigFloat::from_f64(x * power_of_two(SCALE), 64);
+    let exponent = y.exponent().expect("a finite number");
+    y.set_exponent(exponent - SCALE);
+    y
 }
 
 /// The nearest double on that side.

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use astro_float::{BigFloat, Consts, RoundingMode, Sign};
 
+use super::convert::from_double;
 use super::{BigInterval, EXPONENT_LIMIT, Toward, integer, power_of_two, whole_words};
 use crate::{Binary, Constant, Number, Unary};
 
@@ -18,13 +19,17 @@ const EXPONENTIAL_LIMIT: i32 = 26;
 /// The exponent from which sine, cosine and tangent are taken to have any value.
 const TURN_LIMIT: i32 = 4096;
 
-/// One unit in the last place further out: the margin for errors of the library.
-fn step(x: BigFloat, precision: usize, toward: Toward) -> BigFloat {
+/// More bits than asked for: half of them are trusted, half cover the errors of the library.
+const GUARD: usize = 64;
+
+/// Rounds a value that carries an error of at most `2^-(precision + GUARD / 2)`, relatively.
+fn round(x: BigFloat, precision: usize, toward: Toward) -> BigFloat {
     let Some(exponent) = x.exponent().filter(|_| !x.is_zero()) else {
-        return x;
+        return toward.settle(x);
     };
     let sign = if toward == Toward::Up { Sign::Pos } else { Sign::Neg };
-    x.add(&power_of_two(sign, exponent - precision as i32 + 1), precision, toward.mode())
+    let error = power_of_two(sign, exponent - (precision + GUARD / 2) as i32 + 1);
+    toward.settle(x.add(&error, precision, toward.mode()))
 }
 
 /// The value at an argument where it is known exactly, limits at infinity included.
@@ -96,27 +101,30 @@ fn elementary(f: Unary, x: &BigFloat, precision: usize, toward: Toward) -> BigFl
         return toward.settle(y);
     }
     let huge = x.exponent().is_some_and(|e| e > EXPONENTIAL_LIMIT);
+    let unit = integer(if x.is_positive() { 1 } else { -1 });
     let y = match f {
         Unary::Sqrt | Unary::Cbrt => return root(f, x, precision, toward),
         Unary::Expm1 => return expm1(x, precision, toward),
         Unary::Logp1 => return logp1(x, precision, toward),
-        Unary::Exp | Unary::Exp2 | Unary::Exp10 if huge && x.is_negative() => {
-            power_of_two(Sign::Pos, -EXPONENT_LIMIT - 1)
-        }
+        Unary::Exp | Unary::Exp2 | Unary::Exp10 if huge && x.is_negative() => least(),
         Unary::Exp | Unary::Exp2 | Unary::Exp10 | Unary::Cosh if huge => astro_float::INF_POS,
-        Unary::Sinh if huge => {
-            Toward::infinity(if x.is_positive() { Toward::Up } else { Toward::Down })
-        }
-        Unary::Tanh if huge => {
-            step(integer(if x.is_positive() { 1 } else { -1 }), precision, toward)
-        }
-        _ => step(library(f, x, precision, toward.mode()), precision, toward),
+        Unary::Sinh if huge => astro_float::INF_POS.mul(&unit, 64, RoundingMode::None),
+        Unary::Tanh if huge => unit,
+        _ => library(f, x, precision),
     };
-    toward.settle(y)
+    round(y, precision, toward)
 }
 
-/// `f(x)` as the library has it.
-fn library(f: Unary, x: &BigFloat, p: usize, mode: RoundingMode) -> BigFloat {
+/// A positive number below every end.
+fn least() -> BigFloat {
+    power_of_two(Sign::Pos, -2 * EXPONENT_LIMIT)
+}
+
+/// `f(x)` as the library has it, with the guard bits.
+///
+/// The library's own rounding is not asked for: it never ends where a result is exact.
+fn library(f: Unary, x: &BigFloat, precision: usize) -> BigFloat {
+    let (p, mode) = (precision + GUARD, RoundingMode::None);
     CONSTANTS.with_borrow_mut(|cc| match f {
         Unary::Exp => x.exp(p, mode, cc),
         Unary::Exp2 => integer(2).pow(x, p, mode, cc),
@@ -149,10 +157,13 @@ fn library(f: Unary, x: &BigFloat, p: usize, mode: RoundingMode) -> BigFloat {
 
 /// The square or cube root, exact where it can be.
 fn root(f: Unary, x: &BigFloat, precision: usize, toward: Toward) -> BigFloat {
-    let root = library(f, x, precision, toward.mode());
+    let mut root = library(f, x, precision);
     let square = root.mul_full_prec(&root);
     let power = if f == Unary::Cbrt { square.mul_full_prec(&root) } else { square };
-    if power == *x { root } else { toward.settle(step(root, precision, toward)) }
+    if power == *x && root.set_precision(precision, toward.mode()).is_ok() {
+        return root;
+    }
+    round(root, precision, toward)
 }
 
 /// `e^x - 1`, with the bits that the difference cancels.
@@ -199,19 +210,23 @@ impl BigInterval {
     pub fn pi(precision: usize) -> Self {
         let precision = whole_words(precision);
         let pi = |toward: Toward| {
-            let pi = CONSTANTS.with_borrow_mut(|cc| cc.pi(precision, toward.mode()));
-            step(pi, precision, toward)
+            let pi = CONSTANTS.with_borrow_mut(|cc| cc.pi(precision + GUARD, RoundingMode::None));
+            round(pi, precision, toward)
         };
         Self::new(pi(Toward::Down), pi(Toward::Up), precision)
     }
 
-    /// The range of an increasing function.
-    fn increasing(&self, f: Unary) -> Self {
-        Self::new(
+    /// The range of an increasing function that has the exact value `fixed[1]` at `fixed[0]`.
+    fn increasing(&self, f: Unary, fixed: [f64; 2]) -> Self {
+        let range = Self::new(
             elementary(f, &self.lo, self.precision, Toward::Down),
             elementary(f, &self.hi, self.precision, Toward::Up),
             self.precision,
-        )
+        );
+        let at = from_double(fixed[0]);
+        let least = if self.lo >= at { fixed[1] } else { f64::NEG_INFINITY };
+        let most = if self.hi <= at { fixed[1] } else { f64::INFINITY };
+        range.clip(least, most)
     }
 
     /// The common members with `[lo, hi]`.
@@ -222,7 +237,7 @@ impl BigInterval {
     /// The part above `lo`, with `lo` itself as a limit; empty if only `lo` is left.
     fn above(&self, lo: f64) -> Self {
         let part = self.clip(lo, f64::INFINITY);
-        if part.hi > BigFloat::from_f64(lo, 64) { part } else { Self::empty(self.precision) }
+        if part.hi > from_double(lo) { part } else { Self::empty(self.precision) }
     }
 
     /// The argument in quarter turns, if it is not too large to tell.
@@ -265,20 +280,20 @@ impl BigInterval {
                 Self::new(least, most, self.precision)
             }
             Unary::Floor | Unary::Ceil | Unary::Sign => {
-                let end = |x| library(f, x, self.precision, RoundingMode::None);
+                let end = |x| library(f, x, self.precision);
                 Self::new(
                     Toward::Down.settle(end(&self.lo)),
                     Toward::Up.settle(end(&self.hi)),
                     self.precision,
                 )
             }
-            Unary::Sqrt => self.clip(0.0, f64::INFINITY).in_domain(|x| x.increasing(f)),
+            Unary::Sqrt => self.clip(0.0, f64::INFINITY).map(|x| x.increasing(f, [0.0, 0.0])),
             Unary::Log | Unary::Log2 | Unary::Log10 => {
-                self.above(0.0).in_domain(|x| x.increasing(f))
+                self.above(0.0).map(|x| x.increasing(f, [1.0, 0.0]))
             }
-            Unary::Logp1 => self.above(-1.0).in_domain(|x| x.increasing(f)),
-            Unary::Asin => self.clip(-1.0, 1.0).in_domain(|x| x.increasing(f)),
-            Unary::Acos => self.clip(-1.0, 1.0).in_domain(|x| {
+            Unary::Logp1 => self.above(-1.0).map(|x| x.increasing(f, [0.0, 0.0])),
+            Unary::Asin => self.clip(-1.0, 1.0).map(|x| x.increasing(f, [0.0, 0.0])),
+            Unary::Acos => self.clip(-1.0, 1.0).map(|x| {
                 let acos = Self::new(
                     elementary(f, &x.hi, x.precision, Toward::Down),
                     elementary(f, &x.lo, x.precision, Toward::Up),
@@ -286,27 +301,35 @@ impl BigInterval {
                 );
                 acos.clip(0.0, f64::INFINITY)
             }),
-            Unary::Acosh => self.clip(1.0, f64::INFINITY).in_domain(|x| x.increasing(f)),
-            Unary::Atanh => (-(-self.above(-1.0)).above(-1.0)).in_domain(|x| x.increasing(f)),
+            Unary::Acosh => self.clip(1.0, f64::INFINITY).map(|x| x.increasing(f, [1.0, 0.0])),
+            Unary::Atanh => (-(-self.above(-1.0)).above(-1.0)).map(|x| x.increasing(f, [0.0, 0.0])),
             Unary::Sin => self.wave(f, 1.0),
             Unary::Cos => self.wave(f, 0.0),
             Unary::Tan => match self.quarter_turns() {
-                Some(turns) if !turns.passes(1.0, 2.0) => self.increasing(f),
+                Some(turns) if !turns.passes(1.0, 2.0) => Self::new(
+                    elementary(f, &self.lo, self.precision, Toward::Down),
+                    elementary(f, &self.hi, self.precision, Toward::Up),
+                    self.precision,
+                ),
                 _ => Self::entire(self.precision),
             },
             Unary::Cosh => {
                 let [least, most] = self.magnitudes();
-                Self::new(least, most, self.precision).increasing(f).clip(1.0, f64::INFINITY)
+                Self::new(least, most, self.precision).increasing(f, [0.0, 1.0])
             }
-            Unary::Tanh => self.increasing(f).clip(-1.0, 1.0),
-            Unary::Expm1 => self.increasing(f).clip(-1.0, f64::INFINITY),
-            Unary::Exp | Unary::Exp2 | Unary::Exp10 => self.increasing(f).clip(0.0, f64::INFINITY),
-            Unary::Cbrt | Unary::Atan | Unary::Sinh | Unary::Asinh => self.increasing(f),
+            Unary::Tanh => self.increasing(f, [0.0, 0.0]).clip(-1.0, 1.0),
+            Unary::Expm1 => self.increasing(f, [0.0, 0.0]).clip(-1.0, f64::INFINITY),
+            Unary::Exp | Unary::Exp2 | Unary::Exp10 => {
+                self.increasing(f, [0.0, 1.0]).clip(0.0, f64::INFINITY)
+            }
+            Unary::Cbrt | Unary::Atan | Unary::Sinh | Unary::Asinh => {
+                self.increasing(f, [0.0, 0.0])
+            }
         }
     }
 
-    /// `f` of what a domain left, unless nothing is left.
-    fn in_domain(self, f: impl Fn(&Self) -> Self) -> Self {
+    /// `f` of what a domain left, if anything.
+    fn map(self, f: impl Fn(&Self) -> Self) -> Self {
         if self.is_empty() { self } else { f(&self) }
     }
 
@@ -404,9 +427,8 @@ fn corner_power(x: &BigFloat, y: &BigFloat, precision: usize, toward: Toward) ->
         let grows = (*x > one) == y.is_positive();
         return toward.settle(if grows { astro_float::INF_POS } else { integer(0) });
     }
-    let power = CONSTANTS.with_borrow_mut(|cc| x.pow(y, precision, toward.mode(), cc));
-    let power = if power.is_zero() { power_of_two(Sign::Pos, -EXPONENT_LIMIT - 1) } else { power };
-    toward.settle(step(power, precision, toward))
+    let power = CONSTANTS.with_borrow_mut(|cc| x.pow(y, precision + GUARD, RoundingMode::None, cc));
+    round(if power.is_zero() { least() } else { power }, precision, toward)
 }
 
 impl Number for BigInterval {
