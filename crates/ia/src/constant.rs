@@ -1,5 +1,6 @@
 //! Exact constants, as every number takes them.
 
+use std::borrow::Cow;
 use std::sync::LazyLock;
 
 use crate::{BigInterval, Number, Unary};
@@ -33,7 +34,14 @@ impl Constant {
             if f64::from(up) < f64[1] { up.next_up() } else { up },
         ];
         let nearest_f64 = if f64[0] == f64[1] { f64[0] } else { big.nearest() };
-        Self { f64, f32, nearest_f64, nearest_f32: nearest_f64 as f32, big }
+        // Rounding the nearest double again would break ties the wrong way.
+        let halfway = (f64::from(f32[0]) + f64::from(f32[1])) / 2.0;
+        let nearest_f32 = if f64[0] == f64[1] || !halfway.is_finite() {
+            nearest_f64 as f32
+        } else {
+            f32[usize::from(halfway <= f64[0])]
+        };
+        Self { f64, f32, nearest_f64, nearest_f32, big }
     }
 
     /// The exact value of a double.
@@ -45,7 +53,18 @@ impl Constant {
 impl Constant {
     /// An integer.
     pub fn integer(n: i32) -> Self {
-        Self::from_f64(f64::from(n))
+        Self::shared_integer(n).into_owned()
+    }
+
+    /// An integer, without a copy if it is small: for exponents in inner loops.
+    pub fn shared_integer(n: i32) -> Cow<'static, Self> {
+        static SMALL: LazyLock<Vec<Constant>> = LazyLock::new(|| {
+            (-LARGEST_SHARED..=LARGEST_SHARED).map(|n| Constant::from_f64(f64::from(n))).collect()
+        });
+        match SMALL.get((i64::from(n) + i64::from(LARGEST_SHARED)) as usize) {
+            Some(c) => Cow::Borrowed(c),
+            None => Cow::Owned(Self::from_f64(f64::from(n))),
+        }
     }
 
     /// The constant less 1, at the same precision.
@@ -60,6 +79,9 @@ macro_rules! constants {
         $($(#[$doc])* pub static $name: LazyLock<Constant> = LazyLock::new(|| $value);)*
     };
 }
+
+/// The largest integer that is made only once.
+const LARGEST_SHARED: i32 = 64;
 
 /// The precision of the constants below, in bits.
 const PRECISION: usize = 1088;

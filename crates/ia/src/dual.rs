@@ -10,9 +10,10 @@ use crate::{Binary, Constant, Number, Unary};
 ///
 /// `K = 1` along a ray gives F'(t), `K = 3` the gradient. Over intervals each tangent encloses the
 /// derivative wherever the function is differentiable in the box; where `abs`, `min` or `max` has a
-/// kink it encloses every slope between the one-sided ones, so the mean value theorem still holds.
-/// `floor`, `ceil`, `sign` and `mod` have slope 0 between their jumps, which a tangent does not see:
-/// a proof needs the continuity of the value as well.
+/// kink it encloses the slopes on each side that the box reaches. The mean value theorem holds if the
+/// value is continuous on the box as well ([`Decorated`](crate::Decorated) tells): a tangent sees
+/// neither jumps, of which `floor`, `ceil`, `sign` and `mod` have slope 0 on both sides, nor poles.
+/// An empty tangent, as of `sqrt` at 0 alone, claims nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct Dual<N, const K: usize> {
     /// The value.
@@ -91,6 +92,7 @@ impl<N: Number, const K: usize> Mul for Dual<N, K> {
 impl<N: Number, const K: usize> Div for Dual<N, K> {
     type Output = Self;
     /// `(a/b)' = (a' - (a/b) b') / b`.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn div(self, o: Self) -> Self {
         let quotient = self.value.clone() / o.value.clone();
@@ -135,8 +137,11 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
         if n == 0 {
             return Self::constant_value(self.value.powi(0));
         }
-        let value = self.value.clone().powi(n);
-        let slope = self.value.clone().powi(n - 1).scale(&Constant::integer(n));
+        let x = self.value.clone();
+        let value = x.clone().powi(n);
+        // n x^(n-1); below 0 by a division, so that the exponent cannot overflow.
+        let power = if n > 0 { x.powi(n - 1) } else { value.clone() / x };
+        let slope = power.scale(&Constant::shared_integer(n));
         self.chain(value, slope)
     }
 

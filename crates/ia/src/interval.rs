@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::marker::PhantomData;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::elementary;
+use crate::range;
 use crate::{Binary, Constant, Number, Real, Scalar, Unary};
 
 /// How intervals treat what is not a bounded, non-empty interval.
@@ -15,9 +15,10 @@ pub trait Flavor: Copy + Debug + 'static {
 
 /// Bounded, non-empty intervals only: the fastest form.
 ///
-/// A precondition of its bounds: no operand is infinite or NaN, and no divisor contains 0. A caller
-/// establishes it once, by evaluating the box that contains all others with [`Set`] and looking at
-/// every sub-value; inclusion then extends it to every smaller box.
+/// A precondition of its bounds: no operand is infinite or NaN, no divisor contains 0, and no
+/// argument leaves a function's domain. A caller establishes it once, on the box that contains all
+/// others: evaluated over [`Decorated`](crate::Decorated) intervals, every sub-value must be
+/// [bounded](Interval::is_bounded_by) and defined; inclusion extends that to every smaller box.
 #[derive(Clone, Copy, Debug)]
 pub struct Raw;
 
@@ -36,9 +37,10 @@ impl Flavor for Set {
 /// All numbers between `lo` and `hi`, in each lane of `R`.
 ///
 /// If `R` is outward, every operation gives an interval that contains each exact result on members
-/// of its operands. The excess over the tightest such interval is at most one unit in the last place
-/// an end for arithmetic and square roots with nudged marks, none with embedded rounding, and two
-/// (`f32`) or three (`f64`) units for elementary functions of [`Scalar::elementary`].
+/// of its operands, and never a larger one for smaller operands. The excess over the tightest such
+/// interval is at most one unit in the last place an end for sums, products, quotients and square
+/// roots with nudged marks, none with embedded rounding, and two (`f32`) or three (`f64`) units for
+/// elementary functions of [`Scalar::elementary`]. Powers round each of their products.
 #[derive(Clone, Copy, Debug)]
 pub struct Interval<R, F = Raw> {
     /// Lower end.
@@ -92,6 +94,23 @@ impl<R: Real, F: Flavor> Interval<R, F> {
         Self::new(lo, hi)
     }
 
+    /// `self^n` for `n >= 2`.
+    #[inline(always)]
+    fn power(self, n: u32) -> Self {
+        if n.is_multiple_of(2) {
+            let (mig, mag) = (self.mignitude(), self.magnitude());
+            return Self::new(power_down(mig, n), power_up(mag, n)).empty_where(self);
+        }
+        // Odd powers increase: x^n = x |x|^(n-1), the even power rounded away from the result's end.
+        let zero = zero(self.lo);
+        let even = |x: R| (power_down(x.abs(), n - 1), power_up(x.abs(), n - 1));
+        let (down, up) = even(self.lo);
+        let lo = self.lo.mul_down(self.lo.select_lt(zero, up, down));
+        let (down, up) = even(self.hi);
+        let hi = self.hi.mul_up(self.hi.select_lt(zero, down, up));
+        Self::new(lo, hi)
+    }
+
     /// Restores NaN at both ends where an operand was empty (min and max drop NaN).
     #[inline(always)]
     fn empty_where(self, x: Self) -> Self {
@@ -121,6 +140,14 @@ impl<S: Scalar, F: Flavor> Interval<S, F> {
     #[inline(always)]
     pub fn contains_zero(self) -> bool {
         self.contains(zero(self.lo))
+    }
+
+    /// Does it have members, none of which exceeds `limit` in absolute value?
+    ///
+    /// The limit for [`Raw`] should be far below the largest number of `S`: 2^100 for `f32`.
+    #[inline(always)]
+    pub fn is_bounded_by(self, limit: f64) -> bool {
+        -limit <= self.lo.to_f64() && self.hi.to_f64() <= limit
     }
 }
 
@@ -225,19 +252,28 @@ impl<R: Real, F: Flavor> Mul for Interval<R, F> {
 
 impl<R: Real, F: Flavor> Div for Interval<R, F> {
     type Output = Self;
+    /// Each end is one quotient: the signs tell of which ends.
     #[inline(always)]
     fn div(self, o: Self) -> Self {
-        if F::SET {
-            let [lo, hi] = R::map([self.lo, self.hi, o.lo, o.hi], |[a, b, c, d]| {
-                elementary::divide([a, b], [c, d])
-            });
+        let zero = zero(self.lo);
+        // x / y = (-x) / (-y) makes the divisor positive; adding 0 makes -0 into +0.
+        let turn = |x: R, y: R| zero.select_lt(o.hi, x, -y);
+        let (a, b) = (turn(self.lo, self.hi), turn(self.hi, self.lo));
+        let (c, d) = (turn(o.lo, o.hi) + zero, turn(o.hi, o.lo) + zero);
+        let lo = a.div_down(a.select_lt(zero, c, d));
+        let hi = b.div_up(zero.select_lt(b, c, d));
+        if !F::SET {
             return Self::new(lo, hi);
         }
-        let p = self.lo / o.lo;
-        let q = self.lo / o.hi;
-        let r = self.hi / o.lo;
-        let s = self.hi / o.hi;
-        Self::new(p.min(q).min(r.min(s)).down(), p.max(q).max(r.max(s)).up())
+        // 0 inside the divisor: everything, unless the dividend is 0 alone.
+        let infinity = zero.splat(R::Scalar::INFINITY);
+        let within = |end: R, zero_end: R| a.select_lt(zero, end, zero.select_lt(b, end, zero_end));
+        let (low, high) = (within(-infinity, zero.down()), within(infinity, zero.up()));
+        let around = Self::new(c.select_lt(zero, low, lo), c.select_lt(zero, high, hi));
+        // Divisor 0 alone: nothing.
+        let nan = zero.splat(R::Scalar::NAN);
+        let some = |x: R| c.select_lt(zero, x, zero.select_lt(d, x, nan));
+        Self::new(some(around.lo), some(around.hi)).empty_where(self)
     }
 }
 
@@ -251,12 +287,13 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
     #[inline(always)]
     fn scale(self, c: &Constant) -> Self {
         let [c_lo, c_hi] = R::Scalar::enclose(c);
-        if F::SET || c_lo != c_hi {
+        let zero = R::Scalar::from_f64(0.0);
+        if c_lo != c_hi || F::SET && c_lo == zero {
             return self * self.constant(c);
         }
         // A point factor: its sign tells which end is which.
         let factor = self.lo.splat(c_lo);
-        if c_lo < R::Scalar::from_f64(0.0) {
+        if c_lo < zero {
             Self::new(self.hi.mul_down(factor), self.lo.mul_up(factor))
         } else {
             Self::new(self.lo.mul_down(factor), self.hi.mul_up(factor))
@@ -276,36 +313,20 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
 
     #[inline(always)]
     fn powi(self, n: i32) -> Self {
-        if n == 0 {
-            let one = self.lo.splat(R::Scalar::from_f64(1.0));
-            return Self::point(one).empty_where(self);
+        let one = Self::point(self.lo.splat(R::Scalar::from_f64(1.0)));
+        match n {
+            0 => one.empty_where(self),
+            1 => self,
+            2.. => self.power(n.unsigned_abs()),
+            -1 => one / self,
+            _ => one / self.power(n.unsigned_abs()),
         }
-        if n < 0 {
-            let one = Self::point(self.lo.splat(R::Scalar::from_f64(1.0)));
-            return one / self.powi(n.checked_neg().expect("exponents are limited"));
-        }
-        let n = n.unsigned_abs();
-        if n == 1 {
-            return self;
-        }
-        if n.is_multiple_of(2) {
-            let (mig, mag) = (self.mignitude(), self.magnitude());
-            return Self::new(power_down(mig, n), power_up(mag, n)).empty_where(self);
-        }
-        // Odd powers increase: x^n = x |x|^(n-1), the even power rounded away from the result's end.
-        let zero = zero(self.lo);
-        let even = |x: R| (power_down(x.abs(), n - 1), power_up(x.abs(), n - 1));
-        let (down, up) = even(self.lo);
-        let lo = self.lo.mul_down(self.lo.select_lt(zero, up, down));
-        let (down, up) = even(self.hi);
-        let hi = self.hi.mul_up(self.hi.select_lt(zero, down, up));
-        Self::new(lo, hi)
     }
 
     #[inline(always)]
     fn powc(self, c: &Constant) -> Self {
         let exponent = R::Scalar::enclose(c);
-        self.map(|x| elementary::power(x, exponent))
+        self.map(|x| range::power(x, exponent))
     }
 
     #[inline(always)]
@@ -314,12 +335,18 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
             Unary::Abs => Self::new(self.mignitude(), self.magnitude()).empty_where(self),
             Unary::Floor => Self::new(self.lo.floor(), self.hi.floor()),
             Unary::Ceil => Self::new(self.lo.ceil(), self.hi.ceil()),
-            Unary::Sqrt if !F::SET => {
+            Unary::Sqrt => {
                 let zero = zero(self.lo);
                 let lo = self.lo.max(zero).sqrt_down().max(zero);
-                Self::new(lo, self.hi.max(zero).sqrt_up())
+                let root = Self::new(lo, self.hi.max(zero).sqrt_up());
+                if !F::SET {
+                    return root;
+                }
+                let nan = zero.splat(R::Scalar::NAN);
+                let some = |x: R| self.hi.select_lt(zero, nan, x);
+                Self::new(some(root.lo), some(root.hi)).empty_where(self)
             }
-            _ => self.map(|x| elementary::unary(f, x)),
+            _ => self.map(|x| range::unary(f, x)),
         }
     }
 
@@ -336,7 +363,7 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
             }
             _ => {
                 let [lo, hi] = R::map([self.lo, self.hi, o.lo, o.hi], |[a, b, c, d]| {
-                    elementary::binary(f, [a, b], [c, d])
+                    range::binary(f, [a, b], [c, d])
                 });
                 Self::new(lo, hi)
             }

@@ -154,6 +154,7 @@ pub trait Packet: Real {
     /// How many lanes, at most 64.
     const LANES: usize;
     /// A packet from a function of the lane, in the context of `self`.
+    #[allow(clippy::wrong_self_convention)]
     fn from_fn(self, f: impl FnMut(usize) -> Self::Scalar) -> Self;
     /// The value in lane `i`.
     fn lane(self, i: usize) -> Self::Scalar;
