@@ -174,6 +174,18 @@ fn a_ray_that_touches_the_ball_or_an_edge_is_not_lost() {
 }
 
 #[test]
+fn clips_of_the_ball_are_tight() {
+    let ball = unit().with_ball(0.5).expect("a ball");
+    let clip =
+        ball.clip(Ray::new(Vec3::new(-3.0, 0.3, 0.0), Vec3::X), EVERYTHING).expect("it hits");
+    let half = (0.25 - f64::from(0.3_f32).powi(2)).sqrt();
+    let inner = clip.inner.expect("most of it is certain");
+    for [lo, hi] in [clip.outer, inner] {
+        assert!((lo - (3.0 - half)).abs() < 1e-12 && (hi - (3.0 + half)).abs() < 1e-12);
+    }
+}
+
+#[test]
 fn ranges_limit_clips() {
     let ray = Ray::new(Vec3::new(-3.0, 0.0, 0.0), Vec3::X);
     let clip = |lo, hi| unit().clip(ray, [lo, hi]);

@@ -74,7 +74,7 @@ impl Place {
         // The entry around: from its header, or the start, to the next header.
         let header = "[[surface]]";
         let start = text[..line_end].rfind(header);
-        let end = after.find(header).map_or(text.len(), |i| offset + i).max(line_end);
+        let end = text[line_end..].find(header).map_or(text.len(), |i| line_end + i);
         let value = |line: &str, key: &str| {
             let rest = line.trim_start().strip_prefix(key)?.trim_start().strip_prefix('=')?;
             Some(rest.split('#').next()?.trim().trim_matches(['"', '\'']).to_owned())

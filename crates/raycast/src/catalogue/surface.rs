@@ -29,7 +29,7 @@ pub struct Surface {
     pub variant_of: Option<String>,
     /// Where it is printed: a paper's key and a place in it.
     pub papers: Vec<String>,
-    /// The base step of adaptive marching points, units of space ([singh2010], Table 1).
+    /// The base step of adaptive marching points, units of space (\[singh2010\], Table 1).
     pub published_step: Option<f64>,
     /// How sure it is that the equation is the one meant.
     pub status: Status,
