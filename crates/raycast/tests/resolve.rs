@@ -157,6 +157,10 @@ fn what_is_wrong_in_a_catalogue_is_said_with_its_place() {
         (format!("{head}{head}"), "own.toml:5, surface egg, key id: there are two surfaces egg"),
         (head.replace("egg", "an egg"), "own.toml:2, surface an egg, key id: \"an egg\" is no id"),
         (head.replace("y^2", "y^"), "own.toml:3, surface egg, key equation: "),
+        (
+            head.replace("\"x^2 + y^2 + z^2 = 1\"", "\"\"\"\nx^2 + y^2\n+ c*z^2\n = 1\"\"\""),
+            "own.toml:5, surface egg, key equation: ",
+        ),
         (head.replace("y^2", "b*y^2"), "own.toml:3, surface egg, key equation: "),
         ("[[surface]]\nid = \"egg\"\n".into(), "own.toml:1, surface egg: missing field `equation`"),
         (format!("{head}facts = [\"open\n"), "own.toml:4, surface egg, key facts: "),

@@ -1,6 +1,7 @@
 //! The form of catalogue files, which `crates/raycast/catalogue/surfaces.toml` documents.
 
 use std::collections::BTreeMap;
+use std::fmt::{self, Display};
 use std::ops::Range;
 
 use glam::DVec3;
@@ -52,8 +53,8 @@ pub struct Place {
     pub key: Option<String>,
 }
 
-impl std::fmt::Display for Place {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.line)?;
         if let Some(surface) = &self.surface {
             write!(f, ", surface {surface}")?;
@@ -179,14 +180,25 @@ pub(super) fn read(text: &str, file: &str) -> Result<Vec<(Surface, Range<usize>)
 /// Reads the equation of a surface, which is somewhere in the text.
 pub(super) fn check_equation(
     surface: &Surface,
-    span: Range<usize>,
+    equation: Range<usize>,
     text: &str,
     file: &str,
 ) -> Result<(), CatalogueError> {
-    match surface.function() {
-        Ok(_) => Ok(()),
-        Err(error) => Err(Fault { span, message: described(&error) }.within(text, file)),
-    }
+    let Err(error) = surface.function() else {
+        return Ok(());
+    };
+    // The fault itself, if it is in the equation, and the equation is written without escapes.
+    let within = match text[equation.clone()].find(&surface.equation) {
+        Some(start) if error.text == surface.equation => start + error.span.start,
+        _ => 0,
+    };
+    let place = Place::of(text, equation.start + within);
+    Err(CatalogueError::Entry {
+        file: file.into(),
+        // Lines of an equation may look like keys.
+        place: Place { key: Some("equation".into()), ..place },
+        message: described(&error),
+    })
 }
 
 fn described(error: &ParseError) -> String {

@@ -42,23 +42,23 @@ pub fn find(function: &Function, parameters: &Parameters) -> Domain {
     }
     let mut f = tape.evaluator(&Enclosure::point(0.0));
     let mut first = None;
-    for cube in HALF_SIDES.map(cube) {
-        if crosses_faces(&mut f, &cube) {
-            first = first.or(Some(cube));
+    for tried in HALF_SIDES.map(cube) {
+        if crosses_faces(&mut f, &tried) {
+            first = first.or(Some(tried));
             continue;
         }
-        let Some(mut part) = shrink(&mut f, &cube, evaluations) else {
+        let Some(mut part) = shrink(&mut f, &tried, evaluations) else {
             continue;
         };
-        if misses_faces(&mut f, &cube, evaluations) {
+        if misses_faces(&mut f, &tried, evaluations) {
             for _ in 1..ROUNDS {
                 part = shrink(&mut f, &part, evaluations).unwrap_or(part);
             }
             let margin = DVec3::splat(part.longest_side() / 64.0);
             let (min, max) = (part.min - margin, part.max + margin);
-            return Domain { min: min.max(cube.min), max: max.min(cube.max), ball: None };
+            return Domain { min: min.max(tried.min), max: max.min(tried.max), ball: None };
         }
-        first = first.or(Some(cube));
+        first = first.or(Some(tried));
     }
     first.unwrap_or(standard)
 }
