@@ -7,11 +7,12 @@
 //! | [`Reference`] | this project: slow, judged first | all it decides |
 
 mod amp;
+mod implicit;
 mod kmarch;
 mod normals;
 mod reference;
 mod tiles;
 
-pub use amp::Amp;
+pub use amp::{Adaptation, Amp, RootTest};
 pub use kmarch::Kmarch;
-pub use reference::{Class, Reference};
+pub use reference::{Class, PreparedReference, Reference, Truth};

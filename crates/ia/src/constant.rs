@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
-use crate::{BigInterval, Number, Unary};
+use crate::{BigInterval, Number, Scalar, Unary};
 
 /// A real constant, known as tightly as any number type can use it.
 ///
@@ -27,12 +27,7 @@ impl Constant {
     /// The constant that `big` encloses.
     pub fn new(big: BigInterval) -> Self {
         let f64 = big.to_f64();
-        let down = f64[0] as f32;
-        let up = f64[1] as f32;
-        let f32 = [
-            if f64::from(down) > f64[0] { down.next_down() } else { down },
-            if f64::from(up) < f64[1] { up.next_up() } else { up },
-        ];
+        let f32 = f32::enclose_range(f64[0], f64[1]);
         let nearest_f64 = if f64[0] == f64[1] { f64[0] } else { big.nearest() };
         // Rounding the nearest double again would break ties the wrong way.
         let halfway = (f64::from(f32[0]) + f64::from(f32[1])) / 2.0;

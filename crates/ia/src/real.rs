@@ -132,6 +132,8 @@ pub trait Scalar: Real<Scalar = Self> + PartialOrd {
     fn enclose(c: &Constant) -> [Self; 2];
     /// The nearest value to a constant.
     fn nearest(c: &Constant) -> Self;
+    /// The tightest enclosure of `[lo, hi]`; for a nearest type, the nearest values.
+    fn enclose_range(lo: f64, hi: f64) -> [Self; 2];
     /// The value, exactly.
     fn to_f64(self) -> f64;
     /// `f(self)`, correctly rounded to nearest (`f32`) or within one unit in the last place (`f64`).
@@ -480,6 +482,12 @@ impl Scalar for f32 {
     fn nearest(c: &Constant) -> Self {
         c.nearest_f32
     }
+    fn enclose_range(lo: f64, hi: f64) -> [Self; 2] {
+        let (down, up) = (lo as f32, hi as f32);
+        let down = if f64::from(down) > lo { down.next_down() } else { down };
+        let up = if f64::from(up) < hi { up.next_up() } else { up };
+        [down, up]
+    }
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
@@ -511,6 +519,9 @@ impl Scalar for f64 {
     #[inline(always)]
     fn nearest(c: &Constant) -> Self {
         c.nearest_f64
+    }
+    fn enclose_range(lo: f64, hi: f64) -> [Self; 2] {
+        [lo, hi]
     }
     fn to_f64(self) -> f64 {
         self
@@ -545,6 +556,9 @@ macro_rules! nearest_scalar {
             #[inline(always)]
             fn nearest(c: &Constant) -> Self {
                 Nearest(<$float as Scalar>::nearest(c))
+            }
+            fn enclose_range(lo: f64, hi: f64) -> [Self; 2] {
+                [Self::from_f64(lo), Self::from_f64(hi)]
             }
             fn to_f64(self) -> f64 {
                 self.0.to_f64()

@@ -1,5 +1,0 @@
-//! Amp.
-
-/// Placeholder.
-#[derive(Clone, Debug)]
-pub struct Amp;

@@ -1,0 +1,54 @@
+//! What every method takes from a scene whose geometry is a function.
+
+use zeroset_expr::{Function, Parameters, Tape};
+use zeroset_raycast::{Domain, Error, Geometry, Scene, Unsupported};
+
+/// Bits to which constants are known.
+const PRECISION: usize = 128;
+
+/// A function with values for its parameters, and the domain in which its roots count.
+#[derive(Clone, Debug)]
+pub(crate) struct Implicit {
+    function: Function,
+    /// The function with the values.
+    pub tape: Tape,
+    /// Where roots count.
+    pub domain: Domain,
+}
+
+impl Implicit {
+    /// The function of a scene, for the method of that id.
+    pub(crate) fn new(method: &str, scene: &Scene) -> Result<Self, Error> {
+        let function = Self::function(method, scene)?.clone();
+        let tape = function.tape(&scene.parameters, PRECISION)?;
+        Ok(Self { function, tape, domain: checked(scene.domain)? })
+    }
+
+    /// The function of a scene, if it has one.
+    pub(crate) fn function<'a>(
+        method: &str,
+        scene: &'a Scene,
+    ) -> Result<&'a Function, Unsupported> {
+        match &scene.geometry {
+            Geometry::Implicit(function) => Ok(function),
+            _ => Err(Unsupported(format!("{method} casts rays at functions only"))),
+        }
+    }
+
+    /// New values for the parameters; after an error the old ones stay.
+    pub(crate) fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
+        self.tape = self.function.tape(values, PRECISION)?;
+        Ok(())
+    }
+}
+
+/// The domain, unless it is empty or not finite.
+fn checked(domain: Domain) -> Result<Domain, Error> {
+    let Domain { min, max, ball } = domain;
+    match ball {
+        Some(radius) if !(radius > 0.0 && radius.is_finite()) => Err(Error::Domain(format!(
+            "the radius {radius} of the domain's ball is not a positive number"
+        ))),
+        _ => Ok(Domain { ball, ..Domain::new(min, max)? }),
+    }
+}

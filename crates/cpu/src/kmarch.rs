@@ -1,5 +1,0 @@
-//! Kmarch.
-
-/// Placeholder.
-#[derive(Clone, Debug)]
-pub struct Kmarch;
