@@ -208,10 +208,26 @@ fn references_lead_somewhere() {
 #[test]
 fn degrees_are_those_of_the_functions() {
     for surface in Catalogue::builtin().iter() {
-        let function = surface.function().expect("an equation");
-        assert_eq!(function.degree(), surface.degree, "{}", surface.id);
+        assert_eq!(tape(surface).degree(), surface.degree, "{}", surface.id);
         assert!(surface.degree.is_none() || surface.zero_set_degree.is_none(), "{}", surface.id);
     }
+}
+
+#[test]
+fn values_are_those_computed_elsewhere() {
+    let rows =
+        include_str!("../catalogue/values.csv").lines().filter(|line| !line.starts_with('#'));
+    let mut ids = Vec::new();
+    for row in rows.skip(1) {
+        let columns: Vec<&str> = row.split(',').collect();
+        let [id, x, y, z, expected] = columns[..] else { panic!("{row}") };
+        let value = evaluator(&tape(surface(id))).evaluate([x, y, z].map(constant));
+        let expected = constant(expected);
+        let error = (value - expected.clone()).nearest().abs();
+        assert!(error <= 1e-23 * expected.nearest().abs(), "{id}: off by {error:e}");
+        ids.push(id);
+    }
+    assert_eq!(ids, IDS);
 }
 
 #[test]
