@@ -45,10 +45,6 @@ impl Implicit {
 /// The domain, unless it is empty or not finite.
 fn checked(domain: Domain) -> Result<Domain, Error> {
     let Domain { min, max, ball } = domain;
-    match ball {
-        Some(radius) if !(radius > 0.0 && radius.is_finite()) => Err(Error::Domain(format!(
-            "the radius {radius} of the domain's ball is not a positive number"
-        ))),
-        _ => Ok(Domain { ball, ..Domain::new(min, max)? }),
-    }
+    let cuboid = Domain::new(min, max)?;
+    ball.map_or(Ok(cuboid), |radius| cuboid.with_ball(radius))
 }
