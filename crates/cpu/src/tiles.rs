@@ -1,6 +1,7 @@
 //! Work sharing: rays in tiles, tiles over threads.
 
 use rayon::prelude::*;
+use zeroset_ia::widest;
 use zeroset_raycast::{
     Certificate, Error, Hit, Hits, Progress, Ray, RayBatch, Rays, Report, View, Work,
 };
@@ -39,14 +40,22 @@ pub(crate) fn cast(
 fn answer(tile: Tile<'_>, run: &impl Fn(&[Ray]) -> Vec<Hit>) -> (Vec<usize>, Vec<Hit>) {
     let (mut indices, mut valid) = (Vec::with_capacity(CHUNK), Vec::with_capacity(CHUNK));
     let mut invalid = Vec::new();
-    tile.visit(|index, ray| {
-        if ray.is_valid() {
-            indices.push(index);
-            valid.push(ray);
-        } else {
-            invalid.push(index);
-        }
-    });
+    widest(
+        #[inline(always)]
+        || {
+            tile.visit(
+                #[inline(always)]
+                |index, ray| {
+                    if ray.is_valid() {
+                        indices.push(index);
+                        valid.push(ray);
+                    } else {
+                        invalid.push(index);
+                    }
+                },
+            )
+        },
+    );
     let mut hits = run(&valid);
     assert_eq!(hits.len(), valid.len(), "one answer a ray");
     let no_ray = Work { nonfinite: 1, ..Work::default() };
@@ -82,6 +91,7 @@ fn tiles(rays: Rays<'_>) -> Vec<Tile<'_>> {
 
 impl Tile<'_> {
     /// Shows every ray and its index, neighbours together.
+    #[inline(always)]
     fn visit(self, mut see: impl FnMut(usize, Ray)) {
         match self {
             Self::Range { batch, start, end } => {

@@ -1,8 +1,9 @@
 //! Tapes: straight lines of number operations.
 
-use std::collections::BTreeSet;
-
 use zeroset_ia::{Binary, Constant, Number, Unary};
+
+use crate::Evaluator;
+use crate::plan::Plan;
 
 /// A place for an intermediate value; the first three hold x, y and z.
 pub type Register = u32;
@@ -40,7 +41,7 @@ pub enum Op {
 
 impl Op {
     /// The same operation on registers of other names.
-    fn renamed(self, mut name: impl FnMut(Register) -> Register) -> Self {
+    pub(crate) fn renamed(self, mut name: impl FnMut(Register) -> Register) -> Self {
         match self {
             Self::Load(c) => Self::Load(c),
             Self::Add(a, b) => Self::Add(name(a), name(b)),
@@ -75,40 +76,7 @@ pub struct Tape {
     constants: Vec<Constant>,
     registers: usize,
     output: Register,
-    steps: Vec<Instruction>,
-    result: Register,
-}
-
-/// In a tape's steps: the result just before, which most operations read. It is passed on directly,
-/// and goes to a register only if a later operation reads it there.
-const LAST: Register = Register::MAX;
-
-/// The instructions with [`LAST`] for what need not go through a register, and where the result is.
-fn steps(instructions: &[Instruction], output: Register) -> (Vec<Instruction>, Register) {
-    let result = match instructions.last() {
-        Some(last) if last.out == output => LAST,
-        _ => output,
-    };
-    // Backwards, with the registers that are read further on.
-    let mut read = BTreeSet::from([result]);
-    let mut steps: Vec<_> = (0..instructions.len())
-        .rev()
-        .map(|i| {
-            let Instruction { op, out } = instructions[i];
-            let out = if read.remove(&out) { out } else { LAST };
-            let before = i.checked_sub(1).map(|i| instructions[i].out);
-            let op = op.renamed(|r| {
-                if Some(r) == before {
-                    return LAST;
-                }
-                read.insert(r);
-                r
-            });
-            Instruction { op, out }
-        })
-        .collect();
-    steps.reverse();
-    (steps, result)
+    plan: Plan,
 }
 
 impl Tape {
@@ -149,8 +117,8 @@ impl Tape {
             written[out] = true;
         }
         read(&written, output);
-        let (steps, result) = steps(&instructions, output);
-        Self { instructions, constants, registers: written.len(), output, steps, result }
+        let plan = Plan::new(&instructions, output);
+        Self { instructions, constants, registers: written.len(), output, plan }
     }
 
     /// The operations in order.
@@ -215,78 +183,6 @@ impl Tape {
     /// An evaluator over numbers like `context`, which it reuses from call to call.
     #[inline(always)]
     pub fn evaluator<N: Number>(&self, context: &N) -> Evaluator<'_, N> {
-        Evaluator { tape: self, registers: vec![context.clone(); self.registers] }
+        Evaluator::new(&self.plan, &self.constants, self.registers, context)
     }
-}
-
-/// A tape with room for its intermediate values.
-#[derive(Clone, Debug)]
-pub struct Evaluator<'a, N> {
-    tape: &'a Tape,
-    registers: Vec<N>,
-}
-
-impl<N: Number> Evaluator<'_, N> {
-    /// The function's value at (x, y, z).
-    #[inline(always)]
-    pub fn evaluate(&mut self, point: [N; 3]) -> N {
-        self.visit(
-            point,
-            #[inline(always)]
-            |_| {},
-        )
-    }
-
-    /// The function's value at (x, y, z); every sub-value is shown to `inspect`, in order.
-    #[inline(always)]
-    pub fn visit(&mut self, point: [N; 3], inspect: impl FnMut(&N)) -> N {
-        let [x, y, z] = point;
-        self.bind(0, x);
-        self.bind(1, y);
-        self.bind(2, z);
-        self.run(inspect)
-    }
-
-    /// Sets x, y or z (axis 0, 1, 2) for the next [`run`](Self::run).
-    #[inline(always)]
-    pub fn bind(&mut self, axis: usize, value: N) {
-        self.registers[axis] = value;
-    }
-
-    /// The function's value at the point that has been bound, once: a run may overwrite the point.
-    /// Every sub-value is shown to `inspect`, in order.
-    #[inline(always)]
-    pub fn run(&mut self, mut inspect: impl FnMut(&N)) -> N {
-        let r = &mut self.registers[..];
-        let constants = &self.tape.constants[..];
-        let mut last = r[0].clone();
-        for &Instruction { op, out } in &self.tape.steps {
-            let value = match op {
-                Op::Load(i) => last.constant(&constants[i as usize]),
-                Op::Add(a, b) => get(r, &last, a) + get(r, &last, b),
-                Op::Sub(a, b) => get(r, &last, a) - get(r, &last, b),
-                Op::Mul(a, b) => get(r, &last, a) * get(r, &last, b),
-                Op::Div(a, b) => get(r, &last, a) / get(r, &last, b),
-                Op::Neg(a) => -get(r, &last, a),
-                Op::Scale(a, i) => get(r, &last, a).scale(&constants[i as usize]),
-                Op::Offset(a, i) => get(r, &last, a).offset(&constants[i as usize]),
-                Op::Sqr(a) => get(r, &last, a).sqr(),
-                Op::Powi(a, n) => get(r, &last, a).powi(n),
-                Op::Powc(a, i) => get(r, &last, a).powc(&constants[i as usize]),
-                Op::Unary(f, a) => get(r, &last, a).unary(f),
-                Op::Binary(f, a, b) => get(r, &last, a).binary(f, get(r, &last, b)),
-            };
-            inspect(&value);
-            if out != LAST {
-                r[out as usize] = value.clone();
-            }
-            last = value;
-        }
-        if self.tape.result == LAST { last } else { r[self.tape.result as usize].clone() }
-    }
-}
-
-#[inline(always)]
-fn get<N: Clone>(registers: &[N], last: &N, i: Register) -> N {
-    if i == LAST { last.clone() } else { registers[i as usize].clone() }
 }

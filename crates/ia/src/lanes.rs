@@ -340,6 +340,15 @@ pub trait Kernel {
     fn run<R: Packet>(self, zero: R) -> Self::Output;
 }
 
+/// Does plain work in code for the widest instruction set that this machine has. The closure, and what
+/// it calls, must be `#[inline(always)]` to be part of that code.
+pub fn widest<T>(work: impl FnOnce() -> T) -> T {
+    fearless_simd::dispatch!(Level::new(), token => {
+        let _ = token;
+        work()
+    })
+}
+
 /// Runs a kernel on lanes of an instruction set, which falls back to a narrower one if missing.
 pub fn dispatch<K: Kernel>(isa: Isa, rounding: Rounding, kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]

@@ -43,7 +43,7 @@ pub use decorated::{Decorated, Decoration};
 pub use dual::Dual;
 pub use interval::{Interval, Raw, Set};
 pub use jet::{Enclosure, Jet};
-pub use lanes::{Isa, Kernel, Lanes, Rounding, dispatch};
+pub use lanes::{Isa, Kernel, Lanes, Rounding, dispatch, widest};
 pub use number::{Binary, Number, Unary};
 pub use plain::Plain;
 pub use real::{Nearest, Packet, Pair, Real, Scalar};

@@ -23,15 +23,51 @@ const UNITS_8: f64 = 8.0 * 0.5 * f64::EPSILON;
 const UNITS_16: f64 = 2.0 * UNITS_8;
 const UNITS_32: f64 = 4.0 * UNITS_8;
 
-/// The part of a line in the ball: `outer` contains every t there, `inner` only such t. A range with
-/// its ends in the wrong order is empty.
+/// Where a line enters a convex set and where it leaves it: ranges of t, never NaN. The line is outside
+/// before `enter[0]` and after `leave[1]`, and inside between `enter[1]` and `leave[0]`.
 #[derive(Clone, Copy, Debug)]
-struct Chord {
-    outer: [f64; 2],
-    inner: [f64; 2],
+struct Crossing {
+    enter: [f64; 2],
+    leave: [f64; 2],
 }
 
-const NO_CHORD: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+impl Crossing {
+    const ALL: Self = Self { enter: [f64::NEG_INFINITY; 2], leave: [f64::INFINITY; 2] };
+    const NONE: Self = Self { enter: [f64::INFINITY; 2], leave: [f64::NEG_INFINITY; 2] };
+    const UNKNOWN: Self = Self {
+        enter: [f64::NEG_INFINITY, f64::INFINITY],
+        leave: [f64::NEG_INFINITY, f64::INFINITY],
+    };
+
+    /// The crossing of `min <= o + t d <= max`.
+    ///
+    /// `(bound - o) (1/d)` has three roundings, and the ends of its range one more: less than 8 units of
+    /// 2^-53, or the smallest normal number where the product underflows.
+    #[inline(always)]
+    fn new(o: f64, d: f64, min: f64, max: f64) -> Self {
+        if d == 0.0 {
+            return if min <= o && o <= max { Self::ALL } else { Self::NONE };
+        }
+        let inverse = 1.0 / d;
+        let (a, b) = ((min - o) * inverse, (max - o) * inverse);
+        if !(a.abs() + b.abs() < f64::INFINITY) {
+            return Self::UNKNOWN;
+        }
+        let around = |t: f64| {
+            let error = t.abs() * UNITS_8 + f64::MIN_POSITIVE;
+            [t - error, t + error]
+        };
+        Self { enter: around(smaller(a, b)), leave: around(larger(a, b)) }
+    }
+
+    /// Cuts the set with another.
+    #[inline(always)]
+    fn cut(&mut self, other: Self) {
+        let ([from, surely_from], [surely_to, to]) = (self.enter, self.leave);
+        self.enter = [larger(from, other.enter[0]), larger(surely_from, other.enter[1])];
+        self.leave = [smaller(surely_to, other.leave[0]), smaller(to, other.leave[1])];
+    }
+}
 
 /// The part of a ray in a domain, enclosed from outside and from inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +76,18 @@ pub struct Clip {
     pub outer: [f64; 2],
     /// Contains only t in the domain; `None` if no such t is certain.
     pub inner: Option<[f64; 2]>,
+}
+
+/// The larger of two numbers that are not NaN: one instruction, where `f64::max` takes three.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers that are not NaN.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
 impl Domain {
@@ -90,50 +138,25 @@ impl Domain {
 
     /// The part of a valid ray within `range` that lies in the domain; `None` if there is surely none,
     /// as in a range with an end that is NaN.
+    #[inline(always)]
     pub fn clip(&self, ray: Ray, range: [f64; 2]) -> Option<Clip> {
         if !(range[0] <= range[1]) {
             return None;
         }
-        let entire = I::new(f64::NEG_INFINITY, f64::INFINITY);
-        let mut outer = range;
-        let mut inner = range;
-        let mut cut = |enter: I, leave: I| {
-            outer = [outer[0].max(enter.lo), outer[1].min(leave.hi)];
-            inner = [inner[0].max(enter.hi), inner[1].min(leave.lo)];
-        };
-        for axis in 0..3 {
-            let o = I::point(f64::from(ray.origin[axis]));
-            let d = f64::from(ray.direction[axis]);
-            let (min, max) = (self.min[axis], self.max[axis]);
-            if d == 0.0 {
-                if !(min <= o.lo && o.lo <= max) {
-                    return None;
-                }
-                continue;
-            }
-            // (bound - o) (1/d) has three roundings, and the ends of the range one more: less than
-            // 8 units of 2^-53, or the smallest normal number where the product underflows.
-            let inverse = 1.0 / d;
-            let at = |bound: f64| {
-                let t = (bound - o.lo) * inverse;
-                let error = t.abs() * UNITS_8 + f64::MIN_POSITIVE;
-                if t.is_finite() { I::new(t - error, t + error) } else { entire }
-            };
-            if d > 0.0 { cut(at(min), at(max)) } else { cut(at(max), at(min)) }
-        }
+        let (o, d) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+        let mut part = Crossing { enter: [range[0]; 2], leave: [range[1]; 2] };
+        part.cut(Crossing::new(o.x, d.x, self.min.x, self.max.x));
+        part.cut(Crossing::new(o.y, d.y, self.min.y, self.max.y));
+        part.cut(Crossing::new(o.z, d.z, self.min.z, self.max.z));
         if let Some(radius) = self.ball {
-            let Chord { outer: [enter, leave], inner } =
-                self.chord(ray, radius).unwrap_or_else(|| self.chord_by_intervals(ray, radius));
-            if !(enter <= leave) {
-                return None;
-            }
-            let [begin, end] = inner;
-            cut(I::new(enter, begin), I::new(end, leave));
+            part.cut(
+                self.chord(ray, radius).unwrap_or_else(|| self.chord_by_intervals(ray, radius)),
+            );
         }
-        if !(outer[0] <= outer[1]) {
-            return None;
-        }
-        Some(Clip { outer, inner: (inner[0] <= inner[1]).then_some(inner) })
+        let Crossing { enter: [from, surely_from], leave: [surely_to, to] } = part;
+        let inner = [surely_from, surely_to];
+        (from <= to)
+            .then(|| Clip { outer: [from, to], inner: (inner[0] <= inner[1]).then_some(inner) })
     }
 
     /// The roots of `|m + t d|^2 = r^2`, with m from the centre to the origin, in plain arithmetic
@@ -143,7 +166,8 @@ impl Domain {
     /// off by 2.1 u w, so `b = m d` by 5.1 u p and `|m|^2 - r^2` by 8.2 u (w^2 + r^2). As `b^2 <= p^2
     /// <= q`, the discriminant `b^2 - a (|m|^2 - r^2)` is off by at most 25 u q. For the quotients by
     /// a the errors add up to less than 12 u (p + root) / a.
-    fn chord(&self, ray: Ray, radius: f64) -> Option<Chord> {
+    #[inline(always)]
+    fn chord(&self, ray: Ray, radius: f64) -> Option<Crossing> {
         let [mut a, mut b, mut p, mut mm, mut ww] = [0.0_f64; 5];
         for axis in 0..3 {
             let (o, d) = (f64::from(ray.origin[axis]), f64::from(ray.direction[axis]));
@@ -163,20 +187,23 @@ impl Domain {
         let discriminant = b * b - a * (mm - radius * radius);
         let error = UNITS_32 * (a * scale);
         if discriminant < -error {
-            return Some(Chord { outer: NO_CHORD, inner: NO_CHORD });
+            return Some(Crossing::NONE);
         }
         let most = (discriminant + error).max(0.0).sqrt();
         let slack = UNITS_16 * (p + most) / a;
-        let outer = [(-b - most) / a - slack, (-b + most) / a + slack];
-        if discriminant < error {
-            return Some(Chord { outer, inner: NO_CHORD });
-        }
-        let least = (discriminant - error).sqrt();
-        Some(Chord { outer, inner: [(-b - least) / a + slack, (-b + least) / a - slack] })
+        let (from, to) = ((-b - most) / a - slack, (-b + most) / a + slack);
+        let surely = if discriminant < error {
+            [f64::INFINITY, f64::NEG_INFINITY]
+        } else {
+            let least = (discriminant - error).sqrt();
+            [(-b - least) / a + slack, (-b + least) / a - slack]
+        };
+        Some(Crossing { enter: [from, surely[0]], leave: [surely[1], to] })
     }
 
     /// The same by intervals: slow, but without any condition.
-    fn chord_by_intervals(&self, ray: Ray, radius: f64) -> Chord {
+    #[cold]
+    fn chord_by_intervals(&self, ray: Ray, radius: f64) -> Crossing {
         let mut squares = [I::point(0.0); 3];
         for axis in 0..3 {
             let centre = (I::point(self.min[axis]) + I::point(self.max[axis])) / I::point(2.0);
@@ -189,44 +216,20 @@ impl Domain {
         let [a, b, mm] = squares;
         let discriminant = b.sqr() - a * (mm - I::point(radius).sqr());
         if discriminant.hi < 0.0 {
-            return Chord { outer: NO_CHORD, inner: NO_CHORD };
+            return Crossing::NONE;
         }
         let root = I::new(discriminant.lo.max(0.0), discriminant.hi).unary(Unary::Sqrt);
         let (enter, leave) = ((-b - root) / a, (-b + root) / a);
-        let inner = if discriminant.lo >= 0.0 { [enter.hi, leave.lo] } else { NO_CHORD };
+        let surely = if discriminant.lo >= 0.0 {
+            [enter.hi, leave.lo]
+        } else {
+            [f64::INFINITY, f64::NEG_INFINITY]
+        };
         // What overflowed tells nothing.
         let known = |x: f64, unknown: f64| if x.is_nan() { unknown } else { x };
-        Chord {
-            outer: [known(enter.lo, f64::NEG_INFINITY), known(leave.hi, f64::INFINITY)],
-            inner: [known(inner[0], f64::INFINITY), known(inner[1], f64::NEG_INFINITY)],
+        Crossing {
+            enter: [known(enter.lo, f64::NEG_INFINITY), known(surely[0], f64::INFINITY)],
+            leave: [known(surely[1], f64::NEG_INFINITY), known(leave.hi, f64::INFINITY)],
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_no_domain_is_refused() {
-        let (low, high) = (DVec3::new(-1.0, -2.0, -3.0), DVec3::new(1.0, 2.0, 3.0));
-        let domain = Domain::new(low, high).unwrap();
-        for bad in [-2.0, -3.0, f64::NAN, f64::INFINITY] {
-            let error = Domain::new(low, DVec3 { y: bad, ..high }).unwrap_err().to_string();
-            assert!(error.contains(&format!("y range [-2, {bad}]")), "{error}");
-        }
-        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(domain.with_ball(bad).unwrap_err().to_string().contains(&bad.to_string()));
-        }
-    }
-
-    #[test]
-    fn sizes() {
-        let domain = Domain::new(DVec3::new(-1.0, 0.0, 1.0), DVec3::new(1.0, 1.0, 3.0)).unwrap();
-        assert_eq!(domain.centre(), DVec3::new(0.0, 0.5, 2.0));
-        assert_eq!(domain.radius(), 1.5);
-        assert_eq!(domain.longest_side(), 2.0);
-        assert_eq!(domain.with_ball(1.0).unwrap().radius(), 1.0);
-        assert_eq!(domain.with_ball(2.0).unwrap().radius(), 1.5);
     }
 }

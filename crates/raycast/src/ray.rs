@@ -28,6 +28,7 @@ impl Ray {
     }
 
     /// Are all numbers finite, and is there a direction? Methods answer `miss` for other rays.
+    #[inline(always)]
     pub fn is_valid(self) -> bool {
         self.origin.is_finite() && self.direction.is_finite() && self.direction != Vec3::ZERO
     }

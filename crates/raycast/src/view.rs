@@ -78,7 +78,7 @@ impl View {
 
     /// The ray through the centre of a pixel. Its direction is a unit vector before rounding to
     /// single precision, so that t is a distance to about seven digits.
-    #[inline]
+    #[inline(always)]
     pub fn ray(&self, column: usize, row: usize) -> Ray {
         let [right, up, forward] = self.frame;
         // In units of half the image's height.
@@ -104,7 +104,7 @@ impl View {
 }
 
 /// Rounds to single precision; -0 becomes 0.
-#[inline]
+#[inline(always)]
 fn to_single(v: DVec3) -> Vec3 {
     v.as_vec3() + Vec3::ZERO
 }

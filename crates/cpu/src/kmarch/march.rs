@@ -17,7 +17,7 @@ pub(super) struct Marcher {
     pub ray: usize,
     /// Its geometry.
     pub line: Ray,
-    /// The range of t in which roots count: finite, unless it is unknown.
+    /// The range of t that contains all that count.
     pub range: [f64; 2],
     /// Slabs are bisected this often before they count as hit.
     pub depth: u32,
@@ -45,6 +45,8 @@ pub(super) trait Judge {
 pub(super) struct March<'a, J> {
     pub tape: &'a Tape,
     pub bounds: &'a Bounds,
+    /// The depth of the first slabs, at most that of any ray.
+    pub first: u32,
     pub groups: &'a [(Axis, Vec<Marcher>)],
     pub judge: &'a mut J,
 }
@@ -57,7 +59,7 @@ impl<J: Judge> March<'_, J> {
         for (axis, marchers) in self.groups {
             for packet in marchers.chunks(R::LANES) {
                 let lattice = Lattice::new(zero, *axis, self.bounds, packet);
-                march(&mut evaluator, &lattice, *axis, zero, packet, self.judge);
+                march(&mut evaluator, &lattice, *axis, self.first, packet, self.judge);
             }
         }
     }
@@ -91,10 +93,11 @@ fn march<R: Packet, F: Flavor>(
     evaluator: &mut Evaluator<'_, Interval<R, F>>,
     lattice: &Lattice<R>,
     axis: Axis,
-    zero: R,
+    first: u32,
     packet: &[Marcher],
     judge: &mut impl Judge,
 ) {
+    let zero = lattice.zero();
     let infinity = zero.splat(R::Scalar::INFINITY);
     let one = zero.splat(R::Scalar::from_f64(1.0));
     let mut last = [0_u64; MAX_DEPTH as usize + 1];
@@ -106,8 +109,9 @@ fn march<R: Packet, F: Flavor>(
     let mut evaluations = zero;
     // The rays that descended to each depth, and the slab's index there.
     let mut descended = [0_u64; MAX_DEPTH as usize + 1];
-    descended[0] = alive;
-    let (mut depth, mut index, mut width) = (0_u32, 0_u64, lattice.length());
+    descended[first as usize] = alive;
+    let (mut depth, mut index) = (first, 0_u64);
+    let mut width = lattice.width(first);
     let mut near = lattice.boundary(0, width);
     let [k, u, v] = axis.all();
     while alive != 0 {
@@ -151,22 +155,20 @@ fn march<R: Packet, F: Flavor>(
             if descending != 0 {
                 depth += 1;
                 index *= 2;
-                width *= 0.5;
+                width = lattice.width(depth);
                 descended[depth as usize] = descending;
                 continue;
             }
         }
-        // Both halves of a slab done: back to the slab above.
-        while index & 1 == 1 {
-            index >>= 1;
-            depth -= 1;
-            width *= 2.0;
-        }
-        if depth == 0 {
+        // On to the next slab; where both halves of a slab are done, to the one after that.
+        let up = index.trailing_ones().min(depth - first);
+        depth -= up;
+        index = (index >> up) + 1;
+        if depth == first && index == 1 << first {
             break;
         }
+        width = lattice.width(depth);
         alive &= lattice.goes_on_at(&far);
-        index += 1;
         near = far;
     }
     for (lane, marcher) in packet.iter().enumerate() {

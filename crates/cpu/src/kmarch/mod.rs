@@ -10,10 +10,10 @@ mod march;
 mod slab;
 
 use zeroset_expr::{Parameters, Tape};
-use zeroset_ia::{Interval, Isa, Kernel, Nearest, Rounding, Scalar, Set, dispatch};
+use zeroset_ia::{Interval, Isa, Kernel, Nearest, Rounding, Scalar, Set, dispatch, widest};
 use zeroset_raycast::{
-    Certificate, Clip, Domain, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress,
-    Ray, Rays, Report, Scene, Unsupported, Work, knob,
+    Certificate, Domain, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray,
+    Rays, Report, Scene, Unsupported, Work, knob,
 };
 
 use crate::implicit::Implicit;
@@ -267,28 +267,17 @@ impl Intersector for Prepared {
 impl Prepared {
     /// Answers the rays of a tile.
     fn cast(&self, rays: &[Ray], range: [f64; 2]) -> Vec<Hit> {
-        let clips: Vec<_> = rays.iter().map(|r| self.implicit.domain.clip(*r, range)).collect();
-        let mut groups: Vec<(Axis, Vec<Marcher>)> = Vec::with_capacity(Axis::COUNT);
-        let mut last = 0;
-        for (ray, (line, clip)) in rays.iter().zip(&clips).enumerate() {
-            let Some(Clip { outer: range, .. }) = *clip else { continue };
-            let axis = Axis::of(*line);
-            // Neighbours mostly share their axis.
-            if groups.get(last).is_none_or(|(a, _)| *a != axis) {
-                last = groups.iter().position(|(a, _)| *a == axis).unwrap_or_else(|| {
-                    groups.push((axis, Vec::with_capacity(rays.len())));
-                    groups.len() - 1
-                });
-            }
-            let depth = self.depth(*line, axis);
-            groups[last].1.push(Marcher { ray, line: *line, range, depth });
-        }
+        let groups = widest(
+            #[inline(always)]
+            || self.groups(rays, range),
+        );
         // A ray that misses the domain.
         let miss = Hit::miss(self.method.proof(Certificate::PROVEN_MISS), Work::default());
         let mut answers = Answers {
             method: &self.method,
             bounds: &self.form.bounds,
-            clips: &clips,
+            domain: &self.implicit.domain,
+            range,
             hits: vec![miss; rays.len()],
             finish: (self.method.finish == Finishing::Certify)
                 .then(|| Finish::new(&self.implicit.tape)),
@@ -296,6 +285,7 @@ impl Prepared {
         let march = March {
             tape: &self.implicit.tape,
             bounds: &self.form.bounds,
+            first: self.first(),
             groups: &groups,
             judge: &mut answers,
         };
@@ -309,22 +299,61 @@ impl Prepared {
         answers.hits
     }
 
-    /// How often the slabs of a ray are bisected.
-    fn depth(&self, line: Ray, axis: Axis) -> u32 {
-        let bounds = &self.form.bounds;
-        let length = bounds.length(axis);
-        let stop = match self.method.stop {
-            Stop::Depth(depth) => depth,
-            Stop::Width(width) => {
-                bisections(length * Clock::new(line, axis, bounds.start(axis)).pace, width)
+    fn first(&self) -> u32 {
+        let start = std::env::var("START").map_or(2, |x| x.parse().unwrap());
+        match self.method.stop {
+            Stop::Depth(depth) => start.min(depth),
+            _ => start,
+        }
+    }
+
+    /// The rays that meet the domain, by axis.
+    #[inline(always)]
+    fn groups(&self, rays: &[Ray], range: [f64; 2]) -> Vec<(Axis, Vec<Marcher>)> {
+        let mut groups: Vec<(Axis, Vec<Marcher>)> = Vec::with_capacity(Axis::COUNT);
+        let depths = [0, 1, 2].map(|k| {
+            self.deepest(
+                k,
+                match self.method.stop {
+                    Stop::Depth(d) => d,
+                    _ => 0,
+                },
+            )
+        });
+        let mut last = 0;
+        for (ray, line) in rays.iter().enumerate() {
+            let Some(clip) = self.implicit.domain.clip(*line, range) else { continue };
+            let axis = Axis::of(*line);
+            // Neighbours mostly share their axis.
+            if groups.get(last).is_none_or(|(a, _)| *a != axis) {
+                last = groups.iter().position(|(a, _)| *a == axis).unwrap_or_else(|| {
+                    groups.push((axis, Vec::with_capacity(rays.len())));
+                    groups.len() - 1
+                });
             }
-        };
+            let depth = match self.method.stop {
+                Stop::Depth(_) => depths[axis.k],
+                Stop::Width(width) => self.depth(*line, axis, width),
+            };
+            groups[last].1.push(Marcher { ray, line: *line, range: clip.outer, depth });
+        }
+        groups
+    }
+
+    /// How often the slabs of a ray are bisected for a width in t.
+    fn depth(&self, line: Ray, axis: Axis, width: f64) -> u32 {
+        let bounds = &self.form.bounds;
+        let clock = Clock::new(line, axis, bounds.start(axis));
+        self.deepest(axis.k, bisections(bounds.length(axis) * clock.pace, width))
+    }
+
+    fn deepest(&self, k: usize, stop: u32) -> u32 {
         let levels = match self.method.finish {
             Finishing::Accept => 0,
             Finishing::Certify => self.method.levels,
         };
         // Slabs finer than the rounding of coordinates gain nothing.
-        (stop + levels).min(bounds.finest(axis)).min(MAX_DEPTH)
+        (stop + levels).min(self.form.bounds.finest(k)).min(MAX_DEPTH)
     }
 }
 
@@ -349,17 +378,17 @@ impl Kmarch {
 struct Answers<'a> {
     method: &'a Kmarch,
     bounds: &'a Bounds,
-    clips: &'a [Option<Clip>],
+    domain: &'a Domain,
+    range: [f64; 2],
     hits: Vec<Hit>,
     finish: Option<Finish<'a>>,
 }
 
 impl Judge for Answers<'_> {
     fn reached(&mut self, axis: Axis, marcher: &Marcher, slab: [f64; 2], dropped: bool) -> Verdict {
-        let Marcher { ray, line, .. } = *marcher;
-        let clip = self.clips[ray].expect("a marching ray meets the domain");
+        let Marcher { ray, line, range, .. } = *marcher;
         let [lo, hi] = Clock::new(line, axis, self.bounds.start(axis)).range(slab);
-        let slab = [lo.max(clip.outer[0]), hi.min(clip.outer[1])];
+        let slab = [lo.max(range[0]), hi.min(range[1])];
         let mut work = Work::default();
         let finding = match &mut self.finish {
             Some(finish) => {
@@ -369,6 +398,8 @@ impl Judge for Answers<'_> {
                 };
                 // At least a few units in the last place of t.
                 let width = width.max(8.0 * f64::EPSILON * hi.abs());
+                let clip =
+                    self.domain.clip(line, self.range).expect("a marching ray meets the domain");
                 finish.settle(line, clip, slab, width, &mut work)
             }
             None => Finding::Unknown,

@@ -26,6 +26,7 @@ impl Axis {
     pub(super) const COUNT: usize = 6;
 
     /// The dominant axis of a direction and its sign.
+    #[inline(always)]
     pub(super) fn of(ray: Ray) -> Self {
         let d = ray.direction.abs();
         let k = if d.x >= d.y && d.x >= d.z {
@@ -73,8 +74,8 @@ impl Bounds {
     }
 
     /// The depth beyond which slabs gain nothing.
-    pub(super) fn finest(&self, axis: Axis) -> u32 {
-        self.finest[axis.k]
+    pub(super) fn finest(&self, k: usize) -> u32 {
+        self.finest[k]
     }
 
     /// How far it goes.
@@ -239,10 +240,16 @@ impl<R: Packet> Lattice<R> {
         }
     }
 
-    /// How far the march goes.
+    /// 0 in every lane.
     #[inline(always)]
-    pub(super) fn length(&self) -> f64 {
-        self.length
+    pub(super) fn zero(&self) -> R {
+        self.start.splat(R::Scalar::from_f64(0.0))
+    }
+
+    /// The width of slabs: `length / 2^depth`.
+    #[inline(always)]
+    pub(super) fn width(&self, depth: u32) -> f64 {
+        self.length * f64::from_bits(u64::from(1023 - depth) << 52)
     }
 
     /// The boundary after `index` slabs of the given width, a dyadic fraction of the length: the same
