@@ -344,6 +344,8 @@ impl BigInterval {
         }
         let range = Self::new(zero, y.hi.clone(), y.precision);
         let steps = (self.clone() / y.clone()).unary(Unary::Floor);
+        // However large y, a negative quotient is not yet 0.
+        let steps = if self.is_negative() { steps.clip(f64::NEG_INFINITY, -1.0) } else { steps };
         if steps.is_empty() {
             steps
         } else if steps.is_point() {
