@@ -1,13 +1,14 @@
 //! `zeroset compare`: methods on one surface and view, judged against the reference and timed.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use zeroset::bench::{
     self, Comparison, Context, Machine, Options, Record, Registry, Stage, record,
 };
 use zeroset::raycast::{Method, Rays, Request, Scene, View};
-use zeroset::shade::{self, Picture, ViewKind, sheet};
+use zeroset::shade::sheet::{self, Tile};
+use zeroset::shade::{self, Picture, ViewKind};
 
 use crate::failure::Failure;
 use crate::numbers::short;
@@ -164,53 +165,59 @@ impl Compare {
         view: &View,
     ) -> Result<Vec<PathBuf>, Failure> {
         let stem = output::file_stem(&scene.id);
-        let file = |name: String| self.out.join(format!("{stem}-{name}"));
+        let file = |name: &str| self.out.join(format!("{stem}-{name}"));
+        let runs: Vec<_> = comparison
+            .runs
+            .iter()
+            .filter_map(|run| {
+                let outcome = run.outcome.as_ref().ok()?;
+                Some((run.method, outcome, outcome.judgement.as_ref().map(agreement)))
+            })
+            .collect();
+        let answers: Vec<_> =
+            runs.iter().map(|(_, outcome, a)| (&outcome.hits, a.as_deref())).collect();
         let mut files = Vec::new();
-        let mut pictures: Vec<(String, Picture)> = Vec::new();
-        let mut errors: Vec<(String, Picture)> = Vec::new();
-        for run in &comparison.runs {
-            let Ok(outcome) = &run.outcome else { continue };
-            let agreement = outcome.judgement.as_ref().map(agreement);
-            let picture = |kind, suffix: &str| -> Result<(Picture, PathBuf), Failure> {
-                let picture = shade::picture(kind, view, &outcome.hits, agreement.as_deref())
-                    .map_err(Failure::work)?;
-                let path = file(format!("{}{suffix}.png", run.method));
-                save(&picture, &path)?;
-                Ok((picture, path))
-            };
-            let exr = file(format!("{}.exr", run.method));
-            shade::exr::save(&exr, view, &outcome.hits, None).map_err(Failure::work)?;
-            if !self.view.needs_reference() || agreement.is_some() {
-                let (shown, path) = picture(self.view, "")?;
-                let time = outcome.times.map_or(String::new(), |t| {
-                    format!("\n{} ms", short(1e3 * t.median.as_secs_f64()))
-                });
-                pictures.push((format!("{}{time}", run.method), shown));
-                files.push(path);
+        let mut save = |picture: &Picture, path: PathBuf| {
+            files.push(path.clone());
+            picture.save_png(&path).map_err(Failure::work)
+        };
+
+        let shown = if self.view.needs_reference() {
+            Vec::new()
+        } else {
+            shade::pictures(self.view, view, &answers).map_err(Failure::work)?
+        };
+        let errors = if comparison.truths.is_some() {
+            shade::pictures(ViewKind::Error, view, &answers).map_err(Failure::work)?
+        } else {
+            Vec::new()
+        };
+        let mut tiles = Vec::new();
+        for (i, (method, outcome, _)) in runs.iter().enumerate() {
+            let (shown, error) = (shown.get(i), errors.get(i));
+            if let Some(picture) = shown {
+                save(picture, file(&format!("{method}.png")))?;
             }
-            if agreement.is_some() {
-                let (shown, path) = picture(ViewKind::Error, "-error")?;
-                errors.push((format!("{}, error", run.method), shown));
-                files.push(path);
+            if let Some(picture) = error {
+                save(picture, file(&format!("{method}-error.png")))?;
             }
-            files.push(exr);
+            let time = outcome
+                .times
+                .map_or(String::new(), |t| format!("\n{} ms", short(1e3 * t.median.as_secs_f64())));
+            let pictures: Vec<_> = [shown, error].into_iter().flatten().collect();
+            tiles.push(Tile::new(format!("{method}{time}"), &pictures));
         }
-        if !pictures.is_empty() {
-            let columns = pictures.len();
-            let tiles: Vec<_> =
-                pictures.iter().chain(&errors).map(|(name, p)| (name.clone(), p)).collect();
-            let path = file("sheet.png".into());
-            let sheet =
-                sheet::sheet_in_columns(&scene.id, &tiles, columns).map_err(Failure::work)?;
-            save(&sheet, &path)?;
+        if !(shown.is_empty() && errors.is_empty()) {
+            let sheet = sheet::sheet(&scene.id, &tiles).map_err(Failure::work)?;
+            save(&sheet, file("sheet.png"))?;
+        }
+        for (method, outcome, _) in &runs {
+            let path = file(&format!("{method}.exr"));
+            shade::exr::save(&path, view, &outcome.hits, None).map_err(Failure::work)?;
             files.push(path);
         }
         Ok(files)
     }
-}
-
-fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {
-    picture.save_png(path).map_err(Failure::work)
 }
 
 /// What is being done.

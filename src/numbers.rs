@@ -42,7 +42,7 @@ pub(crate) fn percent(count: usize, of: usize) -> String {
         _ if count == of => "100 %".into(),
         _ if share < 0.01 => "<0.01 %".into(),
         _ if share > 99.99 => ">99.99 %".into(),
-        _ if share < 1.0 || share > 99.0 => format!("{share:.2} %"),
+        _ if !(1.0..=99.0).contains(&share) => format!("{share:.2} %"),
         _ => format!("{share:.1} %"),
     }
 }

@@ -76,8 +76,12 @@ const HEADER: &str = "ox,oy,oz,dx,dy,dz";
 #[test]
 fn bad_input_is_refused_with_place_and_remedy() {
     let dir = folder();
-    let render = |more: &[&str]| [&["render", SPHERE, "--size", "8x8"], more].concat();
-    let compare = |more: &[&str]| [&["compare", SPHERE, "--size", "8x8"], more].concat();
+    fn render<'a>(more: &[&'a str]) -> Vec<&'a str> {
+        [&["render", SPHERE, "--size", "8x8"], more].concat()
+    }
+    fn compare<'a>(more: &[&'a str]) -> Vec<&'a str> {
+        [&["compare", SPHERE, "--size", "8x8"], more].concat()
+    }
     let cases: Vec<(Vec<&str>, &str)> = vec![
         (vec![], "Usage"),
         (vec!["paint"], "paint"),

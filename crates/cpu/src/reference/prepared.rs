@@ -95,7 +95,7 @@ impl PreparedReference {
 
     /// Searches in the order of their cost.
     fn ladder(&self) -> Vec<Box<dyn Rung + '_>> {
-        let degree = self.function.degree();
+        let degree = self.tapes.double.degree();
         let budget = self.method.budget;
         let double = Curve::new(&self.tapes.double, degree, &Double::point(0.0));
         let mut ladder: Vec<Box<dyn Rung + '_>> = vec![Box::new(Bisection::new(double, budget))];
