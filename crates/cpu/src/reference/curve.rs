@@ -90,6 +90,11 @@ impl<'a, N: Outward> Curve<'a, N> {
         self.work = Work::default();
     }
 
+    /// An interval in the arithmetic of the curve.
+    pub(super) fn between(&self, [lo, hi]: [f64; 2]) -> N {
+        self.line.exact(0.0).between(lo, hi)
+    }
+
     /// F(t).
     pub(super) fn value(&mut self, t: f64) -> N {
         self.work.intervals += 1;

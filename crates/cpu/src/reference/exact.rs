@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 use zeroset_ia::{BigInterval, Binary, Constant, Number, Unary};
 
-use super::sturm::{Dyadic, Polynomial};
+use super::sturm::{Point, Polynomial};
 
 /// A polynomial in t over the rationals; nothing where an operation or a constant is not rational.
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ struct Ratio {
 impl Exact {
     /// `origin + direction t`.
     pub(super) fn line(origin: f64, direction: f64) -> Self {
-        let [o, d] = [origin, direction].map(|x| Dyadic::new(x).parts());
+        let [o, d] = [origin, direction].map(|x| Point::new(x).parts());
         Self(Some(Ratio { numerators: vec![o.0 * &d.1, d.0 * &o.1], denominator: o.1 * d.1 }))
     }
 
@@ -70,7 +70,7 @@ pub(super) fn rational(c: &Constant) -> Option<(BigInt, BigInt)> {
         if !part.is_finite() || part == 0.0 {
             return None;
         }
-        let (n, d) = Dyadic::new(part).parts();
+        let (n, d) = Point::new(part).parts();
         sum = (sum.0 * &d + n * &sum.1, sum.1 * d);
         let precision = rest.precision();
         rest = rest - BigInterval::from_f64(part, precision);

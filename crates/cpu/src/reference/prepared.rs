@@ -105,7 +105,10 @@ impl PreparedReference {
             ladder.push(Box::new(Bisection::new(curve, budget.div_ceil(BUDGET_DIVISOR))));
         }
         if degree.is_some() && self.tapes.rational {
-            ladder.insert(ladder.len().min(2), Box::new(Isolation::new(&self.tapes.double)));
+            ladder.insert(
+                ladder.len().min(2),
+                Box::new(Isolation::new(&self.tapes.double, self.domain)),
+            );
         }
         ladder
     }

@@ -71,12 +71,33 @@ fn spacing(a: f64, b: f64) -> f64 {
     t.next_up() - t
 }
 
+/// The only root in a closed piece, on which F is continuous and F' has one sign.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Isolated {
+    pub(super) bracket: [f64; 2],
+    /// Encloses F' on the bracket, without 0.
+    pub(super) slope: [f64; 2],
+}
+
+impl Isolated {
+    /// What is found if the bracket is as it should be.
+    fn found(&self, goal: &Goal) -> Option<Found> {
+        match goal.place(self.bracket) {
+            Place::Outside => Some(Found::Nothing),
+            Place::Inside if goal.is_met(self.bracket) => Some(Found::Simple(self.bracket)),
+            _ => None,
+        }
+    }
+}
+
 /// A search in some arithmetic; where that is too coarse, it asks the rungs above.
 pub(super) trait Rung {
     /// Turns to another ray.
     fn aim(&mut self, ray: Ray);
     /// The first root in the range. There is none before it that counts.
     fn search(&mut self, range: [f64; 2], goal: &Goal, higher: &mut Ladder<'_>) -> Found;
+    /// The root with a narrower bracket.
+    fn narrow(&mut self, root: Isolated, goal: &Goal, higher: &mut Ladder<'_>) -> Found;
     /// What the ray has cost.
     fn work(&self) -> Work;
 }
@@ -88,6 +109,14 @@ pub(super) type Ladder<'a> = [Box<dyn Rung + 'a>];
 pub(super) fn climb(ladder: &mut Ladder<'_>, range: [f64; 2], goal: &Goal) -> Option<Found> {
     let (rung, higher) = ladder.split_first_mut()?;
     Some(rung.search(range, goal, higher))
+}
+
+/// Asks the lowest rung for a narrower bracket, if there is one.
+pub(super) fn climb_with(ladder: &mut Ladder<'_>, root: Isolated, goal: &Goal) -> Found {
+    match ladder.split_first_mut() {
+        Some((rung, higher)) => rung.narrow(root, goal, higher),
+        None => Found::Stuck(root.bracket),
+    }
 }
 
 /// Bisection with derivative tests, then interval Newton.
@@ -140,7 +169,13 @@ impl<'a, N: Outward> Bisection<'a, N> {
 
     /// The root in a piece on which F is continuous and F' has one sign; `None` if it is not certain
     /// whether there is one.
-    fn cross(&mut self, piece: &Piece<N>, slope: N, goal: &Goal) -> Option<Found> {
+    fn cross(
+        &mut self,
+        piece: &Piece<N>,
+        slope: &N,
+        goal: &Goal,
+        higher: &mut Ladder<'_>,
+    ) -> Option<Found> {
         let [a, b] = piece.ends;
         let rising = slope.sign() == Sign::Positive;
         let bracket = match (rising, piece.signs) {
@@ -148,40 +183,37 @@ impl<'a, N: Outward> Bisection<'a, N> {
             | (false, [Sign::Negative, _] | [_, Sign::Positive]) => return Some(Found::Nothing),
             (_, [Sign::Zero, _]) => [a, a],
             (_, [_, Sign::Zero]) => [b, b],
-            (_, signs) if signs[0].opposes(signs[1]) => {
-                self.refine(piece.ends, signs[0], slope, goal)
-            }
+            (_, signs) if signs[0].opposes(signs[1]) => piece.ends,
             _ => return None,
         };
-        Some(match goal.place(bracket) {
-            Place::Outside => Found::Nothing,
-            Place::Inside if goal.is_met(bracket) => Found::Simple(bracket),
-            _ => Found::Stuck(bracket),
-        })
+        Some(self.narrow(Isolated { bracket, slope: slope.bounds() }, goal, higher))
     }
 
     /// Interval Newton, `m - F(m) / F'([a, b])`, until the bracket is narrow or stays as it is.
-    fn refine(&mut self, ends: [f64; 2], sign: Sign, mut slope: N, goal: &Goal) -> [f64; 2] {
-        let [mut a, mut b] = ends;
+    fn refine(&mut self, root: Isolated, goal: &Goal) -> Isolated {
+        let Isolated { bracket: [mut a, mut b], slope: bounds } = root;
+        let mut slope = self.curve.between(bounds);
+        let rising = slope.sign() == Sign::Positive;
         loop {
-            let done = goal.is_met([a, b]) && goal.place([a, b]) != Place::Edge;
+            let root = Isolated { bracket: [a, b], slope: slope.bounds() };
             let m = 0.5 * a + 0.5 * b;
-            if done || !(a < m && m < b) {
-                return [a, b];
+            if root.found(goal).is_some() || !(a < m && m < b) {
+                return root;
             }
             let before = b - a;
             let value = self.curve.value(m);
             match value.sign() {
-                Sign::Zero => return [m, m],
-                s if s == sign => a = m,
-                s if s.opposes(sign) => b = m,
-                _ => {}
+                Sign::Zero => return Isolated { bracket: [m, m], ..root },
+                Sign::Negative if rising => a = m,
+                Sign::Positive if !rising => a = m,
+                Sign::Negative | Sign::Positive => b = m,
+                Sign::Unknown | Sign::Undefined => {}
             }
             let [lo, hi] = (value / slope.clone()).bounds();
             a = a.max((m - hi).next_down());
             b = b.min((m - lo).next_up());
             if !(b - a < 0.75 * before) {
-                return [a, b];
+                return Isolated { bracket: [a, b], ..root };
             }
             if !goal.is_met([a, b]) {
                 let fresh = self.curve.slope([a, b]);
@@ -277,6 +309,11 @@ impl<N: Outward> Rung for Bisection<'_, N> {
         self.curve.work
     }
 
+    fn narrow(&mut self, root: Isolated, goal: &Goal, higher: &mut Ladder<'_>) -> Found {
+        let root = self.refine(root, goal);
+        root.found(goal).unwrap_or_else(|| climb_with(higher, root, goal))
+    }
+
     fn search(&mut self, range: [f64; 2], goal: &Goal, higher: &mut Ladder<'_>) -> Found {
         let ends = grid(range);
         let signs = ends.map(|t| self.curve.sign(t));
@@ -293,31 +330,26 @@ impl<N: Outward> Rung for Bisection<'_, N> {
             self.left -= 1;
             let found = match self.judge(&mut piece) {
                 Verdict::Free => continue,
-                Verdict::Monotone(slope) => self.cross(&piece, slope, goal),
+                Verdict::Monotone(slope) => self.cross(&piece, &slope, goal, higher),
                 Verdict::Open => None,
             };
-            let open = match found {
-                None => stuck,
-                Some(Found::Stuck([lo, hi])) => [lo.max(range[0]), hi],
+            match found {
+                None => {}
                 Some(Found::Nothing) => continue,
                 Some(found) => return found,
-            };
-            let split = if found.is_none() && !goal.is_resolved(piece.ends) {
-                self.split_point(piece.ends)
-            } else {
-                None
-            };
-            match split {
+            }
+            let resolved = goal.is_resolved(piece.ends);
+            match if resolved { None } else { self.split_point(piece.ends) } {
                 Some(split) if split.sign != Sign::Unknown || higher.is_empty() => {
                     let [left, right] = piece.halves(split);
                     stack.push(right);
                     stack.push(left);
                 }
-                _ => match climb(higher, open, goal) {
+                _ => match climb(higher, stuck, goal) {
                     Some(Found::Nothing) => {}
                     Some(found @ (Found::Simple(_) | Found::Multiple(_))) => return found,
                     Some(found @ Found::Stuck(_)) => return piece.certain(goal).unwrap_or(found),
-                    None => return piece.certain(goal).unwrap_or(Found::Stuck(open)),
+                    None => return piece.certain(goal).unwrap_or(Found::Stuck(stuck)),
                 },
             }
         }
