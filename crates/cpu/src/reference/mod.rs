@@ -34,13 +34,14 @@ pub struct Reference {
     pub width: f64,
     /// The most bits of the significand; 53 is double precision alone.
     pub bits: u32,
-    /// The most pieces of a ray looked at in double precision, and, a sixteenth of it, in each higher one.
+    /// The most pieces of a ray looked at in double precision (an expansion of degree n counts
+    /// n^2/32 more); an eighth of it in each higher precision.
     pub budget: u32,
 }
 
 impl Default for Reference {
     fn default() -> Self {
-        Self { width: 1e-12, bits: 512, budget: 8192 }
+        Self { width: 1e-12, bits: 512, budget: 2048 }
     }
 }
 
@@ -121,7 +122,7 @@ impl Method for Reference {
             Knob {
                 name: "budget",
                 value: self.budget.to_string(),
-                doc: "the most pieces of a ray looked at in double precision (8192)",
+                doc: "the most pieces of a ray looked at in double precision (2048)",
             },
         ]
     }

@@ -20,7 +20,7 @@ use crate::{normals, tiles};
 /// The precisions above double: 128 bits, doubled up to the most that is allowed.
 const FIRST_BITS: u32 = 128;
 /// By how much fewer pieces are looked at in those.
-const BUDGET_DIVISOR: u32 = 16;
+const BUDGET_DIVISOR: u32 = 8;
 /// Rays that share one set of evaluators.
 const CHUNK: usize = 64;
 

@@ -122,7 +122,7 @@ pub(super) fn climb_with(ladder: &mut Ladder<'_>, root: Isolated, goal: &Goal) -
 /// Bisection with derivative tests, then interval Newton.
 pub(super) struct Bisection<'a, N: Outward> {
     curve: Curve<'a, N>,
-    /// Pieces to look at for each ray.
+    /// Pieces to look at for each ray, weighted by the cost of expansions.
     budget: u32,
     left: u32,
 }
@@ -156,6 +156,7 @@ impl<'a, N: Outward> Bisection<'a, N> {
             }
         }
         piece.terms = None;
+        self.left = self.left.saturating_sub(self.curve.cost());
         match self.curve.expand(piece.ends) {
             Expansion::Free => Verdict::Free,
             Expansion::Open => Verdict::Open,
@@ -324,22 +325,22 @@ impl<N: Outward> Rung for Bisection<'_, N> {
                 continue;
             }
             let stuck = [a.max(range[0]), b.min(range[1])];
-            if self.left == 0 {
-                return Found::Stuck(stuck);
+            let mut split = None;
+            if self.left > 0 {
+                self.left -= 1;
+                let found = match self.judge(&mut piece) {
+                    Verdict::Free => continue,
+                    Verdict::Monotone(slope) => self.cross(&piece, &slope, goal, higher),
+                    Verdict::Open => None,
+                };
+                match found {
+                    Some(Found::Nothing) => continue,
+                    Some(found) => return found,
+                    None if goal.is_resolved(piece.ends) => {}
+                    None => split = self.split_point(piece.ends),
+                }
             }
-            self.left -= 1;
-            let found = match self.judge(&mut piece) {
-                Verdict::Free => continue,
-                Verdict::Monotone(slope) => self.cross(&piece, &slope, goal, higher),
-                Verdict::Open => None,
-            };
-            match found {
-                None => {}
-                Some(Found::Nothing) => continue,
-                Some(found) => return found,
-            }
-            let resolved = goal.is_resolved(piece.ends);
-            match if resolved { None } else { self.split_point(piece.ends) } {
+            match split {
                 Some(split) if split.sign != Sign::Unknown || higher.is_empty() => {
                     let [left, right] = piece.halves(split);
                     stack.push(right);
