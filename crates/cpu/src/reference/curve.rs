@@ -126,6 +126,11 @@ impl<'a, N: Outward> Curve<'a, N> {
         slope(&mut self.slopes, &self.line, ends)
     }
 
+    /// Do expansions have no remainder?
+    pub(super) fn is_polynomial(&self) -> bool {
+        matches!(self.form, Form::Polynomial(_))
+    }
+
     /// What an expansion costs, in pieces that are merely split.
     pub(super) fn cost(&self) -> u32 {
         match self.form {

@@ -4,7 +4,7 @@ use zeroset_expr::{Evaluator, Tape};
 use zeroset_raycast::{Domain, Ray, Work};
 
 use super::exact::Exact;
-use super::search::{Found, Goal, Isolated, Ladder, Place, Rung, climb, climb_with};
+use super::ladder::{Found, Goal, Isolated, Ladder, Place, Rung, climb, climb_with};
 use super::sturm::{Chain, Point, Polynomial};
 
 /// Sturm's theorem on the exact ray polynomial, for functions with rational coefficients.

@@ -1,13 +1,14 @@
 //! The reference: slow, and trusted because it proves what it says.
 
 mod bernstein;
+mod bisection;
 mod curve;
 mod exact;
 mod fraction;
 mod isolation;
+mod ladder;
 mod outward;
 mod prepared;
-mod search;
 mod sturm;
 mod taylor;
 

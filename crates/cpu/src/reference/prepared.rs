@@ -8,11 +8,12 @@ use zeroset_raycast::{
     Work,
 };
 
+use super::bisection::Bisection;
 use super::curve::Curve;
 use super::exact;
 use super::isolation::Isolation;
+use super::ladder::{Found, Goal, Ladder, Rung, climb};
 use super::outward::Double;
-use super::search::{Bisection, Found, Goal, Ladder, Rung, climb};
 use super::{Class, Reference, Truth};
 use crate::implicit::Implicit;
 use crate::{normals, tiles};

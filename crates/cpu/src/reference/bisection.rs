@@ -1,123 +1,11 @@
 //! The search for the first root, from small t to large.
 
-use zeroset_raycast::{Clip, Ray, Work};
+use zeroset_raycast::{Ray, Work};
 
 use super::bernstein;
 use super::curve::{Curve, Expansion};
+use super::ladder::{Found, Goal, Isolated, Ladder, Rung, climb, climb_with, is_within, spacing};
 use super::outward::{Outward, Sign};
-
-/// What a search found in a range of t.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Found {
-    /// There is no root that counts.
-    Nothing,
-    /// The first root lies here alone, and F' does not vanish there.
-    Simple([f64; 2]),
-    /// The first root lies here, and may be multiple, or more than one.
-    Multiple([f64; 2]),
-    /// The first root does not lie before this; nothing else is known.
-    Stuck([f64; 2]),
-}
-
-/// Where roots count, and how narrow their enclosures shall be.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Goal {
-    pub(super) clip: Clip,
-    /// Of the pieces that the ray is cut into, at least.
-    pub(super) resolution: f64,
-    /// Of the bracket of a root, at most.
-    pub(super) width: f64,
-}
-
-/// Where a root in a bracket lies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Place {
-    Inside,
-    Outside,
-    Edge,
-}
-
-impl Goal {
-    pub(super) fn place(&self, [lo, hi]: [f64; 2]) -> Place {
-        let Clip { outer, inner } = self.clip;
-        if hi < outer[0] || outer[1] < lo {
-            Place::Outside
-        } else if inner.is_some_and(|inner| inner[0] <= lo && hi <= inner[1]) {
-            Place::Inside
-        } else {
-            Place::Edge
-        }
-    }
-
-    /// Is the bracket narrow enough?
-    pub(super) fn is_met(&self, bracket: [f64; 2]) -> bool {
-        is_within(bracket, self.width)
-    }
-
-    /// Is the piece too narrow to be cut?
-    fn is_resolved(&self, piece: [f64; 2]) -> bool {
-        is_within(piece, self.resolution)
-    }
-}
-
-/// Is it at most so wide, or four units in the last place?
-fn is_within([lo, hi]: [f64; 2], width: f64) -> bool {
-    hi - lo <= width.max(4.0 * spacing(lo, hi))
-}
-
-/// The distance between the doubles near the larger of two.
-fn spacing(a: f64, b: f64) -> f64 {
-    let t = a.abs().max(b.abs());
-    t.next_up() - t
-}
-
-/// The only root in a closed piece, on which F is continuous and F' has one sign.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Isolated {
-    pub(super) bracket: [f64; 2],
-    /// Encloses F' on the bracket, without 0.
-    pub(super) slope: [f64; 2],
-}
-
-impl Isolated {
-    /// What is found if the bracket is as it should be.
-    fn found(&self, goal: &Goal) -> Option<Found> {
-        match goal.place(self.bracket) {
-            Place::Outside => Some(Found::Nothing),
-            Place::Inside if goal.is_met(self.bracket) => Some(Found::Simple(self.bracket)),
-            _ => None,
-        }
-    }
-}
-
-/// A search in some arithmetic; where that is too coarse, it asks the rungs above.
-pub(super) trait Rung {
-    /// Turns to another ray.
-    fn aim(&mut self, ray: Ray);
-    /// The first root in the range. There is none before it that counts.
-    fn search(&mut self, range: [f64; 2], goal: &Goal, higher: &mut Ladder<'_>) -> Found;
-    /// The root with a narrower bracket.
-    fn narrow(&mut self, root: Isolated, goal: &Goal, higher: &mut Ladder<'_>) -> Found;
-    /// What the ray has cost.
-    fn work(&self) -> Work;
-}
-
-/// Rungs in the order of their cost.
-pub(super) type Ladder<'a> = [Box<dyn Rung + 'a>];
-
-/// Asks the lowest rung, if there is one.
-pub(super) fn climb(ladder: &mut Ladder<'_>, range: [f64; 2], goal: &Goal) -> Option<Found> {
-    let (rung, higher) = ladder.split_first_mut()?;
-    Some(rung.search(range, goal, higher))
-}
-
-/// Asks the lowest rung for a narrower bracket, if there is one.
-pub(super) fn climb_with(ladder: &mut Ladder<'_>, root: Isolated, goal: &Goal) -> Found {
-    match ladder.split_first_mut() {
-        Some((rung, higher)) => rung.narrow(root, goal, higher),
-        None => Found::Stuck(root.bracket),
-    }
-}
 
 /// Bisection with derivative tests, then interval Newton.
 pub(super) struct Bisection<'a, N: Outward> {
@@ -140,12 +28,49 @@ enum Verdict<N> {
     Free,
     /// F' is enclosed, and has one sign.
     Monotone(N),
+    /// Smaller pieces may tell.
     Open,
+    /// Rounding hides F, and will on smaller pieces.
+    Blurred,
+}
+
+enum Step {
+    /// Nothing, or the first root.
+    Done(Found),
+    /// Its left part, then its right part.
+    Cut(Split),
+    /// What the rungs above say.
+    Ask,
 }
 
 impl<'a, N: Outward> Bisection<'a, N> {
     pub(super) fn new(curve: Curve<'a, N>, budget: u32) -> Self {
         Self { curve, budget, left: budget }
+    }
+
+    /// What to do with the next piece.
+    fn step(&mut self, piece: &mut Piece<N>, goal: &Goal, higher: &mut Ladder<'_>) -> Step {
+        if self.left == 0 {
+            return Step::Ask;
+        }
+        self.left -= 1;
+        match self.judge(piece) {
+            Verdict::Free => return Step::Done(Found::Nothing),
+            Verdict::Monotone(slope) => {
+                if let Some(found) = self.cross(piece, &slope, goal, higher) {
+                    return Step::Done(found);
+                }
+            }
+            Verdict::Blurred if !higher.is_empty() => return Step::Ask,
+            Verdict::Blurred | Verdict::Open => {}
+        }
+        if goal.is_resolved(piece.ends) {
+            return Step::Ask;
+        }
+        match self.split_point(piece.ends) {
+            Some(split) if split.sign != Sign::Unknown || higher.is_empty() => Step::Cut(split),
+            _ => Step::Ask,
+        }
     }
 
     fn judge(&mut self, piece: &mut Piece<N>) -> Verdict<N> {
@@ -161,7 +86,11 @@ impl<'a, N: Outward> Bisection<'a, N> {
             Expansion::Free => Verdict::Free,
             Expansion::Open => Verdict::Open,
             Expansion::Terms(terms) => {
-                let verdict = verdict(&terms, piece.ends);
+                let blurred = self.curve.is_polynomial() && bernstein::is_blurred(&terms);
+                let verdict = match verdict(&terms, piece.ends) {
+                    Verdict::Open if blurred => Verdict::Blurred,
+                    verdict => verdict,
+                };
                 piece.terms = Some(terms);
                 verdict
             }
@@ -178,7 +107,11 @@ impl<'a, N: Outward> Bisection<'a, N> {
         higher: &mut Ladder<'_>,
     ) -> Option<Found> {
         let [a, b] = piece.ends;
-        let rising = slope.sign() == Sign::Positive;
+        let slope = slope.bounds();
+        if !excludes_zero(slope) {
+            return None;
+        }
+        let rising = slope[0] > 0.0;
         let bracket = match (rising, piece.signs) {
             (true, [Sign::Positive, _] | [_, Sign::Negative])
             | (false, [Sign::Negative, _] | [_, Sign::Positive]) => return Some(Found::Nothing),
@@ -187,16 +120,15 @@ impl<'a, N: Outward> Bisection<'a, N> {
             (_, signs) if signs[0].opposes(signs[1]) => piece.ends,
             _ => return None,
         };
-        Some(self.narrow(Isolated { bracket, slope: slope.bounds() }, goal, higher))
+        Some(self.narrow(Isolated { bracket, slope }, goal, higher))
     }
 
     /// Interval Newton, `m - F(m) / F'([a, b])`, until the bracket is narrow or stays as it is.
     fn refine(&mut self, root: Isolated, goal: &Goal) -> Isolated {
-        let Isolated { bracket: [mut a, mut b], slope: bounds } = root;
-        let mut slope = self.curve.between(bounds);
-        let rising = slope.sign() == Sign::Positive;
+        let Isolated { bracket: [mut a, mut b], mut slope } = root;
+        let rising = slope[0] > 0.0;
         loop {
-            let root = Isolated { bracket: [a, b], slope: slope.bounds() };
+            let root = Isolated { bracket: [a, b], slope };
             let m = 0.5 * a + 0.5 * b;
             if root.found(goal).is_some() || !(a < m && m < b) {
                 return root;
@@ -210,15 +142,15 @@ impl<'a, N: Outward> Bisection<'a, N> {
                 Sign::Negative | Sign::Positive => b = m,
                 Sign::Unknown | Sign::Undefined => {}
             }
-            let [lo, hi] = (value / slope.clone()).bounds();
+            let [lo, hi] = (value / self.curve.between(slope)).bounds();
             a = a.max((m - hi).next_down());
             b = b.min((m - lo).next_up());
             if !(b - a < 0.75 * before) {
                 return Isolated { bracket: [a, b], ..root };
             }
             if !goal.is_met([a, b]) {
-                let fresh = self.curve.slope([a, b]);
-                if matches!(fresh.sign(), Sign::Positive | Sign::Negative) {
+                let fresh = self.curve.slope([a, b]).bounds();
+                if excludes_zero(fresh) {
                     slope = fresh;
                 }
             }
@@ -243,6 +175,10 @@ impl<'a, N: Outward> Bisection<'a, N> {
         }
         fallback
     }
+}
+
+fn excludes_zero([lo, hi]: [f64; 2]) -> bool {
+    lo > 0.0 || hi < 0.0
 }
 
 #[derive(Clone, Copy)]
@@ -276,7 +212,7 @@ impl<N: Outward> Piece<N> {
         certain.then_some(Found::Multiple(bracket))
     }
 
-    fn halves(self, split: Split) -> [Self; 2] {
+    fn cut(self, split: Split) -> [Self; 2] {
         let [a, b] = self.ends;
         let [left, right] = match self.terms {
             Some(terms) => bernstein::split(terms, split.eighths).map(Some),
@@ -324,34 +260,22 @@ impl<N: Outward> Rung for Bisection<'_, N> {
             if b < range[0] || range[1] < a {
                 continue;
             }
-            let stuck = [a.max(range[0]), b.min(range[1])];
-            let mut split = None;
-            if self.left > 0 {
-                self.left -= 1;
-                let found = match self.judge(&mut piece) {
-                    Verdict::Free => continue,
-                    Verdict::Monotone(slope) => self.cross(&piece, &slope, goal, higher),
-                    Verdict::Open => None,
-                };
-                match found {
-                    Some(Found::Nothing) => continue,
-                    Some(found) => return found,
-                    None if goal.is_resolved(piece.ends) => {}
-                    None => split = self.split_point(piece.ends),
-                }
-            }
-            match split {
-                Some(split) if split.sign != Sign::Unknown || higher.is_empty() => {
-                    let [left, right] = piece.halves(split);
+            match self.step(&mut piece, goal, higher) {
+                Step::Done(Found::Nothing) => {}
+                Step::Done(found) => return found,
+                Step::Cut(split) => {
+                    let [left, right] = piece.cut(split);
                     stack.push(right);
                     stack.push(left);
                 }
-                _ => match climb(higher, stuck, goal) {
-                    Some(Found::Nothing) => {}
-                    Some(found @ (Found::Simple(_) | Found::Multiple(_))) => return found,
-                    Some(found @ Found::Stuck(_)) => return piece.certain(goal).unwrap_or(found),
-                    None => return piece.certain(goal).unwrap_or(Found::Stuck(stuck)),
-                },
+                Step::Ask => {
+                    let open = [a.max(range[0]), b.min(range[1])];
+                    match climb(higher, open, goal).unwrap_or(Found::Stuck(open)) {
+                        Found::Nothing => {}
+                        stuck @ Found::Stuck(_) => return piece.certain(goal).unwrap_or(stuck),
+                        found => return found,
+                    }
+                }
             }
         }
         Found::Nothing
