@@ -4,7 +4,7 @@ use zeroset_raycast::{Ray, Work};
 
 use super::bernstein;
 use super::curve::{Curve, Expansion};
-use super::ladder::{Found, Goal, Isolated, Ladder, Rung, climb, climb_with, is_within, spacing};
+use super::ladder::{Found, Goal, Isolated, Ladder, Place, Rung, climb, climb_with, spacing};
 use super::outward::{Outward, Sign};
 
 /// Bisection with derivative tests, then interval Newton.
@@ -289,6 +289,7 @@ mod tests {
     use zeroset_ia::{BigInterval, Constant};
     use zeroset_raycast::Domain;
 
+    use super::super::ladder::is_within;
     use super::super::outward::Double;
     use super::*;
 
