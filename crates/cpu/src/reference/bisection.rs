@@ -310,9 +310,7 @@ mod tests {
         let mut search = Bisection::new(Curve::new(&tape, Some(2), context), 1000);
         search.aim(ray);
         let goal = Goal { clip, resolution: 1e-12, width: 1e-12 };
-        let found = search.search(clip.outer, &goal, &mut []);
-        eprintln!("{found:?} {:?} left {}", search.work(), search.left);
-        found
+        search.search(clip.outer, &goal, &mut [])
     }
 
     fn assert_sphere<N: Outward>(context: &N) {

@@ -1,15 +1,14 @@
 //! The first root of a ray polynomial, isolated exactly.
 
-use zeroset_expr::{Evaluator, Tape};
 use zeroset_raycast::{Domain, Ray, Work};
 
-use super::exact::Exact;
+use super::exact::ExactTape;
 use super::ladder::{Found, Goal, Isolated, Ladder, Place, Rung, climb, climb_with};
 use super::sturm::{Chain, Point, Polynomial};
 
 /// Sturm's theorem on the exact ray polynomial, for functions with rational coefficients.
 pub(super) struct Isolation<'a> {
-    evaluator: Evaluator<'a, Exact>,
+    tape: &'a ExactTape,
     domain: Domain,
     ray: Option<Ray>,
     roots: Option<Roots>,
@@ -22,7 +21,7 @@ enum Roots {
     All,
     /// Its distinct roots, and those of them that are multiple.
     Some { distinct: Counter, multiple: Counter },
-    /// It is not exact, or too large.
+    /// It is too large.
     Unknown,
 }
 
@@ -35,17 +34,13 @@ struct Counter {
 const MAX_SIZE: u64 = 10_000_000;
 
 impl<'a> Isolation<'a> {
-    pub(super) fn new(tape: &'a Tape, domain: Domain) -> Self {
-        let evaluator = tape.evaluator(&Exact::line(0.0, 0.0));
-        Self { evaluator, domain, ray: None, roots: None, work: Work::default() }
+    pub(super) fn new(tape: &'a ExactTape, domain: Domain) -> Self {
+        Self { tape, domain, ray: None, roots: None, work: Work::default() }
     }
 
     fn isolate(&mut self, ray: Ray) -> Roots {
         self.work.intervals += 1;
-        let line = |axis| Exact::line(f64::from(ray.origin[axis]), f64::from(ray.direction[axis]));
-        let Some(p) = self.evaluator.evaluate([line(0), line(1), line(2)]).polynomial() else {
-            return Roots::Unknown;
-        };
+        let p = self.tape.polynomial(ray);
         if p.is_zero() {
             return Roots::All;
         }

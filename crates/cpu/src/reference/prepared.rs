@@ -10,7 +10,7 @@ use zeroset_raycast::{
 
 use super::bisection::Bisection;
 use super::curve::Curve;
-use super::exact;
+use super::exact::ExactTape;
 use super::isolation::Isolation;
 use super::ladder::{Found, Goal, Ladder, Rung, climb};
 use super::outward::Double;
@@ -40,8 +40,8 @@ struct Tapes {
     double: Tape,
     /// With the bits of each.
     finer: Vec<(u32, Tape)>,
-    /// Are its constants rational, and known?
-    rational: bool,
+    /// If it is a polynomial with rational coefficients.
+    exact: Option<ExactTape>,
 }
 
 impl Tapes {
@@ -53,8 +53,8 @@ impl Tapes {
             finer.push((bits, function.tape(values, bits as usize)?));
             bits *= 2;
         }
-        let rational = double.constants().iter().all(|c| exact::rational(c).is_some());
-        Ok(Self { double, finer, rational })
+        let exact = ExactTape::new(&double);
+        Ok(Self { double, finer, exact })
     }
 }
 
@@ -96,7 +96,7 @@ impl PreparedReference {
 
     /// Searches in the order of their cost.
     fn ladder(&self) -> Vec<Box<dyn Rung + '_>> {
-        let degree = self.function.degree();
+        let degree = self.tapes.double.degree();
         let budget = self.method.budget;
         let double = Curve::new(&self.tapes.double, degree, &Double::point(0.0));
         let mut ladder: Vec<Box<dyn Rung + '_>> = vec![Box::new(Bisection::new(double, budget))];
@@ -105,11 +105,8 @@ impl PreparedReference {
             let curve = Curve::new(tape, degree, &zero);
             ladder.push(Box::new(Bisection::new(curve, budget.div_ceil(BUDGET_DIVISOR))));
         }
-        if degree.is_some() && self.tapes.rational {
-            ladder.insert(
-                ladder.len().min(2),
-                Box::new(Isolation::new(&self.tapes.double, self.domain)),
-            );
+        if let Some(exact) = &self.tapes.exact {
+            ladder.insert(ladder.len().min(2), Box::new(Isolation::new(exact, self.domain)));
         }
         ladder
     }
