@@ -88,11 +88,8 @@ impl Ratio {
                 }
             }
         }
-        let denominator = if same {
-            self.denominator.clone()
-        } else {
-            &self.denominator * &other.denominator
-        };
+        let denominator =
+            if same { self.denominator.clone() } else { &self.denominator * &other.denominator };
         Self { numerators, denominator }
     }
 
