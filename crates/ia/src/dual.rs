@@ -22,12 +22,14 @@ pub struct Dual<N, const K: usize> {
     pub tangent: [N; K],
 }
 
+// Loops over tangents rather than `array::map`, which may call its closure out of line: there, lanes
+// have no instruction set.
 impl<N: Number, const K: usize> Dual<N, K> {
     /// A number whose derivatives vanish.
     #[inline(always)]
     pub fn constant_value(value: N) -> Self {
-        let tangent = array::from_fn(|_| value.constant(&ZERO));
-        Self { value, tangent }
+        let zero = value.constant(&ZERO);
+        Self { value, tangent: array::from_fn(|_| zero.clone()) }
     }
 
     /// The `axis`-th independent variable: its own tangent is 1, the others 0.
@@ -39,25 +41,30 @@ impl<N: Number, const K: usize> Dual<N, K> {
 
     /// `value` with every tangent multiplied by the slope.
     #[inline(always)]
-    fn chain(self, value: N, slope: N) -> Self {
-        Self { value, tangent: self.tangent.map(|t| t * slope.clone()) }
+    fn chain(mut self, value: N, slope: N) -> Self {
+        for t in &mut self.tangent {
+            *t = t.clone() * slope.clone();
+        }
+        Self { value, tangent: self.tangent }
     }
 
     /// `value` with the tangents `a * self' + b * other'`.
     #[inline(always)]
     fn combine(self, other: Self, value: N, a: N, b: N) -> Self {
-        let mut others = other.tangent.into_iter();
-        let tangent = self.tangent.map(|t| {
-            let o = others.next().expect("as many tangents");
-            t * a.clone() + o * b.clone()
-        });
-        Self { value, tangent }
+        self.zip(
+            other,
+            value,
+            #[inline(always)]
+            |t, o| t * a.clone() + o * b.clone(),
+        )
     }
 
     #[inline(always)]
     fn zip(self, other: Self, value: N, f: impl Fn(N, N) -> N) -> Self {
-        let mut others = other.tangent.into_iter();
-        let tangent = self.tangent.map(|t| f(t, others.next().expect("as many tangents")));
+        let mut tangent = self.tangent;
+        for (t, o) in tangent.iter_mut().zip(&other.tangent) {
+            *t = f(t.clone(), o.clone());
+        }
         Self { value, tangent }
     }
 }
@@ -67,7 +74,12 @@ impl<N: Number, const K: usize> Add for Dual<N, K> {
     #[inline(always)]
     fn add(self, o: Self) -> Self {
         let value = self.value.clone() + o.value.clone();
-        self.zip(o, value, |a, b| a + b)
+        self.zip(
+            o,
+            value,
+            #[inline(always)]
+            |a, b| a + b,
+        )
     }
 }
 
@@ -76,7 +88,12 @@ impl<N: Number, const K: usize> Sub for Dual<N, K> {
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
         let value = self.value.clone() - o.value.clone();
-        self.zip(o, value, |a, b| a - b)
+        self.zip(
+            o,
+            value,
+            #[inline(always)]
+            |a, b| a - b,
+        )
     }
 }
 
@@ -97,15 +114,23 @@ impl<N: Number, const K: usize> Div for Dual<N, K> {
     fn div(self, o: Self) -> Self {
         let quotient = self.value.clone() / o.value.clone();
         let (q, b) = (quotient.clone(), o.value.clone());
-        self.zip(o, quotient, |da, db| (da - q.clone() * db) / b.clone())
+        self.zip(
+            o,
+            quotient,
+            #[inline(always)]
+            |da, db| (da - q.clone() * db) / b.clone(),
+        )
     }
 }
 
 impl<N: Number, const K: usize> Neg for Dual<N, K> {
     type Output = Self;
     #[inline(always)]
-    fn neg(self) -> Self {
-        Self { value: -self.value, tangent: self.tangent.map(|t| -t) }
+    fn neg(mut self) -> Self {
+        for t in &mut self.tangent {
+            *t = -t.clone();
+        }
+        Self { value: -self.value, tangent: self.tangent }
     }
 }
 
@@ -116,8 +141,11 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     }
 
     #[inline(always)]
-    fn scale(self, c: &Constant) -> Self {
-        Self { value: self.value.scale(c), tangent: self.tangent.map(|t| t.scale(c)) }
+    fn scale(mut self, c: &Constant) -> Self {
+        for t in &mut self.tangent {
+            *t = t.clone().scale(c);
+        }
+        Self { value: self.value.scale(c), tangent: self.tangent }
     }
 
     #[inline(always)]
@@ -200,7 +228,12 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
             }
             Binary::Mod => {
                 let steps = (x / y).unary(Unary::Floor);
-                self.zip(o, value, |dx, dy| dx - steps.clone() * dy)
+                self.zip(
+                    o,
+                    value,
+                    #[inline(always)]
+                    |dx, dy| dx - steps.clone() * dy,
+                )
             }
             Binary::Atan2 => {
                 let norm = x.clone().sqr() + y.clone().sqr();

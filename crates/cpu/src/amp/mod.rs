@@ -137,7 +137,7 @@ impl Method for Amp {
             knob(
                 "scale",
                 auto(self.scale),
-                "the value of S that counts as 1 in tau1, tau2, tau3 and epsilon; auto: the median of |S| over the domain",
+                "the value of S that counts as 1 in tau1, tau2, tau3 and epsilon; auto: the lower quartile of |S| over the domain",
             ),
             knob("tau1", auto(self.tau1), "steps are halved where |S| is at most this; auto: 1"),
             knob(

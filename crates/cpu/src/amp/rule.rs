@@ -106,8 +106,8 @@ impl Amp {
     }
 }
 
-/// The size of a function: the median of |S| over the domain, where it is finite and not zero; 1 if
-/// that is nowhere.
+/// The size of a function: the lower quartile of |S| over the domain, where it is finite and not
+/// zero; 1 if that is nowhere. A quarter of the domain is then near the surface.
 fn size(tape: &Tape, domain: &Domain) -> f64 {
     let mut evaluator = tape.evaluator(&Plain(0.0_f64));
     let mut sizes: Vec<f64> = (1..=PROBES)
@@ -119,8 +119,8 @@ fn size(tape: &Tape, domain: &Domain) -> f64 {
     if sizes.is_empty() {
         return 1.0;
     }
-    let middle = sizes.len() / 2;
-    *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
+    let quarter = sizes.len() / 4;
+    *sizes.select_nth_unstable_by(quarter, f64::total_cmp).1
 }
 
 /// The n-th point of an additive recurrence in the unit cube: fractional parts of n g^-1, n g^-2 and
@@ -129,4 +129,60 @@ fn spread(n: usize) -> DVec3 {
     const G: f64 = 1.220_744_084_605_759_5;
     let n = n as f64;
     DVec3::new(n / G, n / (G * G), n / (G * G * G)).fract()
+}
+
+#[cfg(test)]
+mod tests {
+    use zeroset_expr::{Instruction, Op};
+    use zeroset_ia::Constant;
+
+    use super::*;
+
+    fn cube(half: f64) -> Domain {
+        Domain::new(DVec3::splat(-half), DVec3::splat(half)).unwrap()
+    }
+
+    /// c x.
+    fn plane(c: f64) -> Tape {
+        let scaled = Instruction { op: Op::Scale(0, 0), out: 3 };
+        Tape::new(vec![scaled], vec![Constant::from_f64(c)], 3)
+    }
+
+    #[test]
+    fn a_quarter_of_the_domain_is_within_the_size() {
+        assert!((size(&plane(1.0), &cube(1.0)) - 0.25).abs() < 0.01);
+        assert!((size(&plane(-8.0), &cube(1.0)) - 2.0).abs() < 0.08);
+        assert_eq!(
+            size(&plane(2.0_f64.powi(100)), &cube(1.0)),
+            size(&plane(1.0), &cube(1.0)) * 2.0_f64.powi(100)
+        );
+        // In the ball, values far from the centre are rarer.
+        let ball = Domain { ball: Some(1.0), ..cube(1.0) };
+        assert!(size(&plane(1.0), &ball) < 0.2);
+        // No finite value but zero.
+        assert_eq!(size(&plane(0.0), &cube(1.0)), 1.0);
+        assert_eq!(size(&plane(1e300), &cube(1e300)), 1.0);
+    }
+
+    #[test]
+    fn points_spread_over_every_octant() {
+        let mut octants = [0; 8];
+        for n in 1..=PROBES {
+            let p = spread(n);
+            assert!(p.min_element() >= 0.0 && p.max_element() < 1.0);
+            octants[[p.x, p.y, p.z].iter().fold(0, |o, x| 2 * o + usize::from(*x >= 0.5))] += 1;
+        }
+        assert!(octants.iter().all(|n| (108..=148).contains(n)), "{octants:?}");
+    }
+
+    #[test]
+    fn the_step_is_set_or_published_or_some_pixels() {
+        let domain = cube(1.0);
+        let auto = Amp::default();
+        let ratio = domain.radius() / auto.base_step(&domain, None);
+        assert!((ratio - 96.2).abs() < 0.1, "{ratio}");
+        assert_eq!(auto.base_step(&domain, Some(0.02)), 0.02);
+        let set = Amp { step: Some(0.3), ..Amp::default() };
+        assert_eq!(set.base_step(&domain, Some(0.02)), 0.3);
+    }
 }

@@ -72,6 +72,21 @@ pub enum Class {
     Undecidable,
 }
 
+impl Class {
+    /// All classes, in the order of their declaration.
+    pub const ALL: [Self; 4] = [Self::Transversal, Self::Tangential, Self::None, Self::Undecidable];
+
+    /// The name, as printed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Transversal => "transversal",
+            Self::Tangential => "tangential",
+            Self::None => "none",
+            Self::Undecidable => "undecidable",
+        }
+    }
+}
+
 /// The truth about one ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth {

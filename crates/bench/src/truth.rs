@@ -1,0 +1,176 @@
+//! What is known of rays: the side on which a judge looks answers up.
+
+use zeroset_cpu::{PreparedReference, Reference};
+use zeroset_raycast::{Error, Progress, Rays, Scene};
+
+pub use zeroset_cpu::{Class, Truth};
+
+/// Where truths come from: the reference, or a closed form.
+pub trait Oracle: Send + Sync {
+    /// The truth for the rays at these indices, in their order.
+    ///
+    /// # Errors
+    /// If the work was asked to stop.
+    fn classify(
+        &self,
+        rays: Rays<'_>,
+        indices: &[usize],
+        progress: &Progress,
+    ) -> Result<Vec<Truth>, Error>;
+}
+
+impl Oracle for PreparedReference {
+    fn classify(
+        &self,
+        rays: Rays<'_>,
+        indices: &[usize],
+        progress: &Progress,
+    ) -> Result<Vec<Truth>, Error> {
+        self.classify(rays, indices, progress)
+    }
+}
+
+/// The reference for a scene, with its default knobs.
+///
+/// # Errors
+/// If the reference cannot handle the scene.
+pub fn reference(scene: &Scene) -> Result<PreparedReference, Error> {
+    Reference::default().prepare_reference(scene)
+}
+
+/// Which rays of a request are judged.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sample {
+    /// Their indices, increasing.
+    pub indices: Vec<usize>,
+    /// Every how many-th: in both axes of a view, or along a batch. 1 is all.
+    pub step: usize,
+    /// How many rays there are.
+    pub rays: usize,
+}
+
+/// The truth for a sample of the rays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truths {
+    /// Which rays.
+    pub sample: Sample,
+    /// The truth for each of `sample.indices`.
+    pub truths: Vec<Truth>,
+}
+
+impl Sample {
+    /// Every `step`-th ray from the first, along both axes of a view.
+    ///
+    /// # Panics
+    /// If `step` is 0.
+    pub fn every(step: usize, rays: Rays<'_>) -> Self {
+        let indices = match rays {
+            Rays::View(view) => (0..view.height)
+                .step_by(step)
+                .flat_map(|row| (0..view.width).step_by(step).map(move |c| row * view.width + c))
+                .collect(),
+            Rays::Batch(batch) => (0..batch.rays.len()).step_by(step).collect(),
+        };
+        Self { indices, step, rays: rays.len() }
+    }
+
+    /// The sample with the greatest step, a power of two, that has at least `least` rays; all rays
+    /// if there are fewer.
+    pub fn coarsest(least: usize, rays: Rays<'_>) -> Self {
+        let mut sample = Self::every(1, rays);
+        loop {
+            let coarser = Self::every(2 * sample.step, rays);
+            if coarser.indices.len() < least.max(2) {
+                return sample;
+            }
+            sample = coarser;
+        }
+    }
+
+    /// The sample of half the step, which holds this one; `None` for all rays.
+    pub fn finer(&self, rays: Rays<'_>) -> Option<Self> {
+        (self.step > 1).then(|| Self::every(self.step / 2, rays))
+    }
+
+    /// Are all rays in it?
+    pub fn is_all(&self) -> bool {
+        self.indices.len() == self.rays
+    }
+}
+
+impl Truths {
+    /// How many rays of each class, in the order of [`Class::ALL`].
+    pub fn classes(&self) -> [usize; 4] {
+        Class::ALL.map(|class| self.truths.iter().filter(|t| t.class == class).count())
+    }
+
+    /// Of a view, the pixels that are clear misses: no root there, nor in any of the eight
+    /// neighbours. Border pixels are not: what lies beyond is not known. `None` for batches, and
+    /// where only a sample was classified.
+    pub fn clear_misses(&self, rays: Rays<'_>) -> Option<Vec<usize>> {
+        let Rays::View(view) = rays else { return None };
+        if !self.sample.is_all() {
+            return None;
+        }
+        let (width, height) = (view.width, view.height);
+        let is_none =
+            |column: usize, row: usize| self.truths[row * width + column].class == Class::None;
+        let mut clear = Vec::new();
+        for row in 1..height.saturating_sub(1) {
+            for column in 1..width.saturating_sub(1) {
+                let mut block = (row - 1..=row + 1)
+                    .flat_map(|r| (column - 1..=column + 1).map(move |c| (c, r)));
+                if block.all(|(c, r)| is_none(c, r)) {
+                    clear.push(row * width + column);
+                }
+            }
+        }
+        Some(clear)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use zeroset_raycast::{Camera, Domain, RayBatch, View, Work};
+
+    fn view(width: usize, height: usize) -> View {
+        let domain = Domain::new(DVec3::splat(-1.0), DVec3::splat(1.0)).unwrap();
+        View::new(Camera::facing(&domain), width, height)
+    }
+
+    #[test]
+    fn samples_are_even_and_nested() {
+        let view = view(7, 5);
+        let rays = Rays::View(&view);
+        assert!(Sample::every(1, rays).is_all());
+        assert_eq!(Sample::every(3, rays).indices, [0, 3, 6, 21, 24, 27]);
+        assert_eq!(Sample::every(1000, rays).indices, [0]);
+        let coarsest = Sample::coarsest(3, rays);
+        assert_eq!((coarsest.step, &coarsest.indices[..]), (4, &[0, 4, 28, 32][..]));
+        let finer = coarsest.finer(rays).unwrap();
+        assert_eq!(finer.step, 2);
+        assert!(coarsest.indices.iter().all(|i| finer.indices.contains(i)));
+        assert!(finer.finer(rays).unwrap().is_all());
+        assert_eq!(Sample::coarsest(1000, rays).finer(rays), None);
+        let batch = RayBatch::new(Vec::new());
+        assert!(Sample::coarsest(64, Rays::Batch(&batch)).is_all());
+    }
+
+    #[test]
+    fn a_clear_miss_has_eight_neighbours_without_roots() {
+        let view = view(6, 5);
+        let rays = Rays::View(&view);
+        let none = Truth { class: Class::None, bracket: [f64::INFINITY; 2], work: Work::default() };
+        let mut truths = Truths { sample: Sample::every(1, rays), truths: vec![none; 30] };
+        assert_eq!(truths.clear_misses(rays).unwrap().len(), 4 * 3);
+        // A root at column 1, row 1 spoils its neighbours; what is not decided spoils too.
+        truths.truths[7] = Truth { class: Class::Tangential, ..none };
+        truths.truths[29] = Truth { class: Class::Undecidable, ..none };
+        assert_eq!(truths.clear_misses(rays).unwrap(), [9, 10, 15, 16, 19, 20, 21]);
+        assert_eq!(truths.classes(), [0, 1, 28, 1]);
+        truths.sample = Sample::every(2, rays);
+        assert_eq!(truths.clear_misses(rays), None);
+    }
+}

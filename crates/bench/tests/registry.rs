@@ -1,0 +1,60 @@
+//! Every method of the registry conforms, on surfaces of every kind.
+
+use glam::DVec3;
+use zeroset_bench::conformance::{Failure, check};
+use zeroset_bench::methods;
+use zeroset_expr::Function;
+use zeroset_raycast::{Domain, Scene};
+
+fn scene(id: &str, equation: &str, half: f64, ball: Option<f64>) -> Scene {
+    let function = Function::parse(equation).unwrap();
+    let domain = Domain::new(DVec3::splat(-half), DVec3::splat(half)).unwrap();
+    Scene::new(id, function, Domain { ball, ..domain })
+}
+
+/// Checks every method; the failures of all are told at once.
+fn check_all(scene: &Scene) {
+    let failures: Vec<(&str, Failure)> = methods()
+        .iter()
+        .flat_map(|m| check(m.as_ref(), scene).into_iter().map(|failure| (m.id(), failure)))
+        .collect();
+    let told: Vec<_> = failures.iter().map(|(id, failure)| format!("{id}: {failure}")).collect();
+    assert!(told.is_empty(), "{}:\n{}", scene.id, told.join("\n"));
+}
+
+#[test]
+fn on_a_smooth_surface() {
+    check_all(&scene("sphere", "x^2 + y^2 + z^2 = r^2; r = 1", 1.5, None));
+}
+
+#[test]
+fn on_a_surface_cut_by_a_ball() {
+    let equation = "5*(x^2*(y+z) + y^2*(x+z) + z^2*(x+y)) = 2*(x*y + y*z + x*z)";
+    check_all(&scene("cayley", equation, 1.5, Some(1.5)));
+}
+
+#[test]
+fn on_a_surface_with_a_double_curve() {
+    check_all(&scene("steiner", "x^2*y^2 + y^2*z^2 + x^2*z^2 + x*y*z", 1.0, None));
+}
+
+#[test]
+fn on_a_surface_that_is_touched_and_never_crossed() {
+    check_all(&scene("squared", "(x^2 + y^2 + z^2 - 1)^2", 1.5, None));
+}
+
+#[test]
+fn on_a_surface_with_exponentials() {
+    let equation = "exp(-4*((x-0.5)^2 + y^2 + z^2)) + exp(-4*((x+0.5)^2 + y^2 + z^2)) = 0.5";
+    check_all(&scene("blobs", equation, 1.5, None));
+}
+
+#[test]
+fn on_a_surface_with_a_pole() {
+    check_all(&scene("pole", "1/x - y - z", 2.0, None));
+}
+
+#[test]
+fn on_nothing() {
+    check_all(&scene("empty", "x^2 + y^2 + z^2 + 1", 1.0, None));
+}
