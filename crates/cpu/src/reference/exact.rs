@@ -8,7 +8,7 @@ use zeroset_raycast::Ray;
 
 use super::sturm::{Point, Polynomial};
 
-/// A polynomial function with rational coefficients, known exactly.
+/// A polynomial function whose constants are binary fractions, and so known exactly.
 #[derive(Clone, Debug)]
 pub(super) struct ExactTape {
     instructions: Vec<Instruction>,
@@ -25,7 +25,7 @@ struct Ratio {
 }
 
 impl ExactTape {
-    /// The tape, if it is a polynomial and all its constants are rational.
+    /// The tape, if it is a polynomial and all its constants are binary fractions.
     pub(super) fn new(tape: &Tape) -> Option<Self> {
         tape.degree()?;
         Some(Self {

@@ -6,7 +6,7 @@ use super::exact::ExactTape;
 use super::ladder::{Found, Goal, Isolated, Ladder, Place, Rung, climb, climb_with};
 use super::sturm::{Chain, Point, Polynomial};
 
-/// Sturm's theorem on the exact ray polynomial, for functions with rational coefficients.
+/// Sturm's theorem on the exact ray polynomial.
 pub(super) struct Isolation<'a> {
     tape: &'a ExactTape,
     domain: Domain,

@@ -39,8 +39,9 @@ pub use prepared::PreparedReference;
 ///
 /// - A polynomial F is expanded exactly in Bernstein form, any other F in Taylor form with an
 ///   enclosed remainder.
-/// - What double precision cannot decide is repeated with 128 bits, then, for polynomials with
-///   rational coefficients, by exact arithmetic and Sturm's theorem, then with ever more bits.
+/// - What double precision cannot decide is repeated with 128 bits, then, for polynomials whose
+///   constants are binary fractions, by exact arithmetic and Sturm's theorem, then with ever more
+///   bits.
 /// - What is still open is said to be undecidable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {

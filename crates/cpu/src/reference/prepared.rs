@@ -40,7 +40,7 @@ struct Tapes {
     double: Tape,
     /// With the bits of each.
     finer: Vec<(u32, Tape)>,
-    /// If it is a polynomial with rational coefficients.
+    /// If it is a polynomial whose constants are binary fractions.
     exact: Option<ExactTape>,
 }
 
