@@ -9,7 +9,7 @@
 //! ```
 //! use zeroset::expr::Function;
 //!
-//! let torus = Function::parse("(x^2 + y^2 + z^2 + 1 - r^2)^2 = 4 (x^2 + y^2); r = 0.5")?;
+//! let torus = Function::parse("(x^2 + y^2 + z^2 + 1 - r^2)^2 = 4*(x^2 + y^2); r = 0.5")?;
 //! assert_eq!(torus.degree(), Some(4));
 //! assert_eq!(torus.parameters()[0].name, "r");
 //!
