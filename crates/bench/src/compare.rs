@@ -145,7 +145,7 @@ pub fn compare(
 ) -> Comparison {
     let truths = options.is_judged().then(|| {
         let oracle = truth::reference(scene)?;
-        classify(oracle.as_ref(), rays, options.judging, progress, watch)
+        classify(&oracle, rays, options.judging, progress, watch)
     });
     run_all(truths, scene, rays, methods, options, progress, watch)
 }

@@ -249,10 +249,15 @@ mod tests {
 
     use crate::Sample;
 
-    const NONE: Truth = Truth { class: Class::None, bracket: [f64::INFINITY; 2] };
-    const ROOT: Truth = Truth { class: Class::Transversal, bracket: [2.0, 2.5] };
-    const TOUCH: Truth = Truth { class: Class::Tangential, bracket: [2.0, 2.5] };
-    const UNKNOWN: Truth = Truth { class: Class::Undecidable, bracket: [2.0, 2.5] };
+    const NO_WORK: Work = Work { points: 0, gradients: 0, intervals: 0, nonfinite: 0 };
+    const NONE: Truth = truth(Class::None, [f64::INFINITY; 2]);
+    const ROOT: Truth = truth(Class::Transversal, [2.0, 2.5]);
+    const TOUCH: Truth = truth(Class::Tangential, [2.0, 2.5]);
+    const UNKNOWN: Truth = truth(Class::Undecidable, [2.0, 2.5]);
+
+    const fn truth(class: Class, bracket: [f64; 2]) -> Truth {
+        Truth { class, bracket, work: NO_WORK }
+    }
 
     fn hit(certificate: Certificate, lo: f64, hi: f64) -> Hit {
         Hit { bracket: [lo, hi], certificate, work: Work::default() }

@@ -9,7 +9,7 @@ pub fn methods() -> Vec<Box<dyn Method>> {
     vec![
         Box::new(zeroset_cpu::Amp::default()),
         Box::new(zeroset_cpu::Kmarch::default()),
-        // Box::new(zeroset_cpu::Reference::default()),
+        Box::new(zeroset_cpu::Reference::default()),
     ]
 }
 

@@ -1,29 +1,9 @@
 //! What is known of rays: the side on which a judge looks answers up.
 
+use zeroset_cpu::{PreparedReference, Reference};
 use zeroset_raycast::{Error, Progress, Rays, Scene};
 
-/// What kind of first root a ray has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Class {
-    /// The function changes sign at the first root.
-    Transversal,
-    /// It touches zero without a change of sign.
-    Tangential,
-    /// There is no root.
-    None,
-    /// Not decided.
-    Undecidable,
-}
-
-/// What is known of a ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Truth {
-    /// The kind of the first root.
-    pub class: Class,
-    /// Holds the first root, and no root is before it; `[inf, inf]` for [`Class::None`]. For
-    /// [`Class::Undecidable`] nothing before `bracket[0]` is a root, and no more is known.
-    pub bracket: [f64; 2],
-}
+pub use zeroset_cpu::{Class, Truth};
 
 /// Where truths come from: the reference, or a closed form.
 pub trait Oracle: Send + Sync {
@@ -39,12 +19,23 @@ pub trait Oracle: Send + Sync {
     ) -> Result<Vec<Truth>, Error>;
 }
 
-/// The reference for a scene.
+impl Oracle for PreparedReference {
+    fn classify(
+        &self,
+        rays: Rays<'_>,
+        indices: &[usize],
+        progress: &Progress,
+    ) -> Result<Vec<Truth>, Error> {
+        self.classify(rays, indices, progress)
+    }
+}
+
+/// The reference for a scene, with its default knobs.
 ///
 /// # Errors
 /// If the reference cannot handle the scene.
-pub fn reference(scene: &Scene) -> Result<Box<dyn Oracle>, Error> {
-    todo!("{scene:?}")
+pub fn reference(scene: &Scene) -> Result<PreparedReference, Error> {
+    Reference::default().prepare_reference(scene)
 }
 
 /// Which rays of a request are judged.
@@ -138,26 +129,11 @@ impl Truths {
     }
 }
 
-impl Class {
-    /// All classes.
-    pub const ALL: [Self; 4] = [Self::Transversal, Self::Tangential, Self::None, Self::Undecidable];
-
-    /// The name, as printed.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Transversal => "transversal",
-            Self::Tangential => "tangential",
-            Self::None => "none",
-            Self::Undecidable => "undecidable",
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use glam::DVec3;
-    use zeroset_raycast::{Camera, Domain, RayBatch, View};
+    use zeroset_raycast::{Camera, Domain, RayBatch, View, Work};
 
     fn view(width: usize, height: usize) -> View {
         let domain = Domain::new(DVec3::splat(-1.0), DVec3::splat(1.0)).unwrap();
@@ -186,12 +162,12 @@ mod tests {
     fn a_clear_miss_has_eight_neighbours_without_roots() {
         let view = view(6, 5);
         let rays = Rays::View(&view);
-        let none = Truth { class: Class::None, bracket: [f64::INFINITY; 2] };
+        let none = Truth { class: Class::None, bracket: [f64::INFINITY; 2], work: Work::default() };
         let mut truths = Truths { sample: Sample::every(1, rays), truths: vec![none; 30] };
         assert_eq!(truths.clear_misses(rays).unwrap().len(), 4 * 3);
         // A root at column 1, row 1 spoils its neighbours; what is not decided spoils too.
-        truths.truths[7] = Truth { class: Class::Tangential, bracket: [1.0, 1.0] };
-        truths.truths[29] = Truth { class: Class::Undecidable, bracket: [1.0, 1.0] };
+        truths.truths[7] = Truth { class: Class::Tangential, ..none };
+        truths.truths[29] = Truth { class: Class::Undecidable, ..none };
         assert_eq!(truths.clear_misses(rays).unwrap(), [9, 10, 15, 16, 19, 20, 21]);
         assert_eq!(truths.classes(), [0, 1, 28, 1]);
         truths.sample = Sample::every(2, rays);

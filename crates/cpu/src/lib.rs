@@ -15,4 +15,4 @@ mod tiles;
 
 pub use amp::{Adaptation, Amp, RootTest};
 pub use kmarch::Kmarch;
-pub use reference::{Class, Reference};
+pub use reference::{Class, PreparedReference, Reference, Truth};

@@ -1,6 +1,9 @@
 //! Functions: what an equation says.
 
-use crate::{ParameterError, ParseError, Tape};
+use crate::definitions::{Chunk, Context};
+use crate::graph::{Graph, Id};
+use crate::parser::{Parser, Place};
+use crate::{ParameterError, ParseError, Tape, lower};
 
 /// A named parameter of a function.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +48,12 @@ impl Parameters {
 
 /// A function f(x, y, z) with named parameters; the surface is f = 0.
 #[derive(Clone, Debug)]
-pub struct Function {}
+pub struct Function {
+    text: String,
+    graph: Graph,
+    root: Id,
+    parameters: Vec<Parameter>,
+}
 
 impl Function {
     /// Reads an equation such as `x^2 + y^2 = r^2; r = 1`.
@@ -61,17 +69,29 @@ impl Function {
     /// # Errors
     /// As [`parse`](Self::parse).
     pub fn parse_with(text: &str, definitions: &Definitions) -> Result<Self, ParseError> {
-        todo!("{text} {definitions:?}")
+        let mut context = Context::new();
+        context.define(definitions)?;
+        let all = Chunk::new(text, None)?;
+        let equation = context.split(&all)?;
+        let span = equation.span();
+        let root = Parser::new(&mut context, equation, Place::Equation).equation()?;
+        context.check_unused()?;
+        if context.graph.is_constant(root) {
+            return Err(ParseError::new(text, span, "the equation has no x, y or z")
+                .help("a surface is written for example as `x^2 + y^2 + z^2 = 1`"));
+        }
+        let Context { graph, parameters, .. } = context;
+        Ok(Self { text: text.into(), graph, root, parameters })
+    }
+
+    /// The text that was read.
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     /// The parameters with their defaults, in the order of first use; `w` (default 0.5) is one.
     pub fn parameters(&self) -> &[Parameter] {
-        todo!()
-    }
-
-    /// The total degree if this is a polynomial in x, y, z.
-    pub fn degree(&self) -> Option<u32> {
-        todo!()
+        &self.parameters
     }
 
     /// The tape for the given parameter values, its constants known to `precision` bits (at least 128).
@@ -79,6 +99,35 @@ impl Function {
     /// # Errors
     /// An unknown name, or a value that is no finite constant.
     pub fn tape(&self, values: &Parameters, precision: usize) -> Result<Tape, ParameterError> {
-        todo!("{values:?} {precision}")
+        let mut given = vec![None; self.parameters.len()];
+        for (name, value) in values.iter() {
+            let index = self.parameters.iter().position(|p| p.name == name);
+            let index = index.ok_or_else(|| self.unknown(name))?;
+            given[index] = Some(read_value(name, value)?);
+        }
+        let (graph, root) = lower::specialise(&self.graph, self.root, &given);
+        lower::lower(&graph, root, precision)
+    }
+
+    fn unknown(&self, name: &str) -> ParameterError {
+        let known: Vec<&str> = self.parameters.iter().map(|p| p.name.as_str()).collect();
+        let message = if known.is_empty() {
+            format!("the equation has no parameter `{name}`: it has none")
+        } else {
+            format!("the equation has no parameter `{name}`: it has {}", known.join(", "))
+        };
+        ParameterError { message }
+    }
+}
+
+/// Reads a parameter's value: a constant of its own graph.
+fn read_value(name: &str, value: &str) -> Result<(Graph, Id), ParameterError> {
+    let mut context = Context::new();
+    let read = Chunk::new(value, None)
+        .and_then(|chunk| Parser::new(&mut context, chunk, Place::Constant).value());
+    match read {
+        Ok(id) if context.graph.is_constant(id) => Ok((context.graph, id)),
+        Ok(_) => Err(ParameterError { message: format!("`{name} = {value}` is no constant") }),
+        Err(error) => Err(ParameterError { message: format!("`{name} = {value}`: {error}") }),
     }
 }

@@ -8,8 +8,18 @@
 //! values stay exact. With values for the parameters it becomes a [`Tape`]: a straight line of
 //! [`Number`](zeroset_ia::Number) operations, evaluated over any number by an [`Evaluator`].
 
+mod algebra;
+mod calls;
+mod chebyshev;
+mod definitions;
 pub mod error;
 pub mod function;
+mod graph;
+mod lexer;
+mod lower;
+mod names;
+mod parser;
+mod rational;
 pub mod tape;
 
 pub use error::{ParameterError, ParseError};

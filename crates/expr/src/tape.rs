@@ -110,6 +110,50 @@ impl Tape {
         self.output
     }
 
+    /// The total degree in x, y and z, if the operations make a polynomial.
+    pub fn degree(&self) -> Option<u32> {
+        let mut degrees = vec![Some(1_u32); self.registers];
+        for &Instruction { op, out } in &self.instructions {
+            let of = |r: Register| degrees[r as usize];
+            degrees[out as usize] = match op {
+                Op::Load(_) => Some(0),
+                Op::Add(a, b) | Op::Sub(a, b) => of(a).zip(of(b)).map(|(a, b)| a.max(b)),
+                Op::Mul(a, b) => of(a).zip(of(b)).and_then(|(a, b)| a.checked_add(b)),
+                Op::Neg(a) | Op::Scale(a, _) | Op::Offset(a, _) => of(a),
+                Op::Sqr(a) => of(a).and_then(|a| a.checked_mul(2)),
+                Op::Powi(a, n) if n >= 0 => of(a).and_then(|a| a.checked_mul(n.unsigned_abs())),
+                Op::Div(..) | Op::Powi(..) | Op::Powc(..) | Op::Unary(..) | Op::Binary(..) => None,
+            };
+        }
+        degrees[self.output as usize]
+    }
+
+    /// Is the function defined and continuous everywhere, whatever its arguments?
+    pub fn is_everywhere_continuous(&self) -> bool {
+        self.instructions.iter().all(|i| match i.op {
+            Op::Div(..) | Op::Powc(..) => false,
+            Op::Powi(_, n) => n >= 0,
+            Op::Unary(f, _) => matches!(
+                f,
+                Unary::Abs
+                    | Unary::Cbrt
+                    | Unary::Exp
+                    | Unary::Exp2
+                    | Unary::Exp10
+                    | Unary::Expm1
+                    | Unary::Sin
+                    | Unary::Cos
+                    | Unary::Atan
+                    | Unary::Sinh
+                    | Unary::Cosh
+                    | Unary::Tanh
+                    | Unary::Asinh
+            ),
+            Op::Binary(f, ..) => matches!(f, Binary::Min | Binary::Max | Binary::Hypot),
+            _ => true,
+        })
+    }
+
     /// An evaluator over numbers like `context`, which it reuses from call to call.
     #[inline(always)]
     pub fn evaluator<N: Number>(&self, context: &N) -> Evaluator<'_, N> {

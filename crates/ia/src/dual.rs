@@ -10,9 +10,10 @@ use crate::{Binary, Constant, Number, Unary};
 ///
 /// `K = 1` along a ray gives F'(t), `K = 3` the gradient. Over intervals each tangent encloses the
 /// derivative wherever the function is differentiable in the box; where `abs`, `min` or `max` has a
-/// kink it encloses every slope between the one-sided ones, so the mean value theorem still holds.
-/// `floor`, `ceil`, `sign` and `mod` have slope 0 between their jumps, which a tangent does not see:
-/// a proof needs the continuity of the value as well.
+/// kink it encloses the slopes on each side that the box reaches. The mean value theorem holds if the
+/// value is continuous on the box as well ([`Decorated`](crate::Decorated) tells): a tangent sees
+/// neither jumps, of which `floor`, `ceil`, `sign` and `mod` have slope 0 on both sides, nor poles.
+/// An empty tangent, as of `sqrt` at 0 alone, claims nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct Dual<N, const K: usize> {
     /// The value.

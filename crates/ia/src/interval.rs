@@ -15,9 +15,10 @@ pub trait Flavor: Copy + Debug + 'static {
 
 /// Bounded, non-empty intervals only: the fastest form.
 ///
-/// A precondition of its bounds: no operand is infinite or NaN, and no divisor contains 0. A caller
-/// establishes it once, by evaluating the box that contains all others with [`Set`] and looking at
-/// every sub-value; inclusion then extends it to every smaller box.
+/// A precondition of its bounds: no operand is infinite or NaN, no divisor contains 0, and no
+/// argument leaves a function's domain. A caller establishes it once, on the box that contains all
+/// others: evaluated over [`Decorated`](crate::Decorated) intervals, every sub-value must be
+/// [bounded](Interval::is_bounded_by) and defined; inclusion extends that to every smaller box.
 #[derive(Clone, Copy, Debug)]
 pub struct Raw;
 
@@ -36,9 +37,10 @@ impl Flavor for Set {
 /// All numbers between `lo` and `hi`, in each lane of `R`.
 ///
 /// If `R` is outward, every operation gives an interval that contains each exact result on members
-/// of its operands. The excess over the tightest such interval is at most one unit in the last place
-/// an end for arithmetic and square roots with nudged marks, none with embedded rounding, and two
-/// (`f32`) or three (`f64`) units for elementary functions of [`Scalar::elementary`].
+/// of its operands, and never a larger one for smaller operands. The excess over the tightest such
+/// interval is at most one unit in the last place an end for sums, products, quotients and square
+/// roots with nudged marks, none with embedded rounding, and two (`f32`) or three (`f64`) units for
+/// elementary functions of [`Scalar::elementary`]. Powers round each of their products.
 #[derive(Clone, Copy, Debug)]
 pub struct Interval<R, F = Raw> {
     /// Lower end.
@@ -142,8 +144,7 @@ impl<S: Scalar, F: Flavor> Interval<S, F> {
 
     /// Does it have members, none of which exceeds `limit` in absolute value?
     ///
-    /// Where this holds of every sub-value over a box, with a limit well below the largest number of
-    /// `S`, [`Raw`] intervals meet their precondition on every smaller box.
+    /// The limit for [`Raw`] should be far below the largest number of `S`: 2^100 for `f32`.
     #[inline(always)]
     pub fn is_bounded_by(self, limit: f64) -> bool {
         -limit <= self.lo.to_f64() && self.hi.to_f64() <= limit

@@ -18,15 +18,19 @@
 //! | [`number`] | what an expression needs of a number |
 //! | [`interval`] | intervals, raw and set-based (IEEE 1788) |
 //! | [`plain`] | plain reals as numbers |
+//! | [`decorated`] | intervals that know whether the function was defined and continuous |
 //! | [`dual`] | forward-mode derivatives over any number |
+//! | [`jet`] | Taylor series over any enclosing number |
 //! | [`big`] | intervals of any precision |
 //! | [`constant`] | exact constants, as every number takes them |
 
 pub mod big;
 pub mod constant;
+pub mod decorated;
 pub mod dual;
 mod elementary;
 pub mod interval;
+pub mod jet;
 pub mod lanes;
 pub mod number;
 pub mod plain;
@@ -35,8 +39,10 @@ pub mod real;
 
 pub use big::BigInterval;
 pub use constant::Constant;
+pub use decorated::{Decorated, Decoration};
 pub use dual::Dual;
 pub use interval::{Interval, Raw, Set};
+pub use jet::{Enclosure, Jet};
 pub use lanes::{Isa, Kernel, Lanes, Rounding, dispatch};
 pub use number::{Binary, Number, Unary};
 pub use plain::Plain;

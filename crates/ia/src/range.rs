@@ -195,15 +195,16 @@ pub(crate) fn power<S: Scalar>(x: [S; 2], y: [S; 2]) -> [S; 2] {
     [lo.max(zero), a.max(b).max(c.max(d)).elementary_up()]
 }
 
-/// `floor(x/y)` for `y > 0`, if it is small enough to be known.
+/// `floor(x/y)` for `y > 0`, or its limit, if it is small enough to be known.
 fn floor_quotient(x: f64, y: f64) -> Option<f64> {
     const LARGEST: f64 = (1u64 << 52) as f64;
     let floor = (x / y).floor();
-    if !(floor.abs() < LARGEST && y < f64::INFINITY) {
+    if !(floor.abs() < LARGEST) {
         return None;
     }
     // x/y may have been rounded up to an integer; the remainder's sign is exact.
-    Some(if (-floor).mul_add(y, x) < 0.0 { floor - 1.0 } else { floor })
+    let beyond = if y < f64::INFINITY { (-floor).mul_add(y, x) < 0.0 } else { x < 0.0 };
+    Some(if beyond { floor - 1.0 } else { floor })
 }
 
 /// `floor(x/y)`, if it has one value over `x` times `y`.

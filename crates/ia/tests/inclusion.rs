@@ -2,61 +2,9 @@
 
 mod numbers;
 
-use numbers::{Float, bounded, exactly, interval, nested};
+use numbers::{Float, Operation, exactly, interval, nested, operation};
 use proptest::prelude::*;
-use zeroset_ia::{BigInterval, Binary, Constant, Interval, Number, Set, Unary};
-
-/// An operation that any number has.
-#[derive(Clone, Debug)]
-enum Operation {
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Neg,
-    Sqr,
-    Power(i32),
-    RealPower(f64),
-    Scale(f64),
-    Offset(f64),
-    Unary(Unary),
-    Binary(Binary),
-}
-
-impl Operation {
-    fn apply<N: Number>(&self, x: N, y: N) -> N {
-        match *self {
-            Self::Add => x + y,
-            Self::Sub => x - y,
-            Self::Mul => x * y,
-            Self::Div => x / y,
-            Self::Neg => -x,
-            Self::Sqr => x.sqr(),
-            Self::Power(n) => x.powi(n),
-            Self::RealPower(c) => x.powc(&Constant::from_f64(c)),
-            Self::Scale(c) => x.scale(&Constant::from_f64(c)),
-            Self::Offset(c) => x.offset(&Constant::from_f64(c)),
-            Self::Unary(f) => x.unary(f),
-            Self::Binary(f) => x.binary(f, y),
-        }
-    }
-}
-
-fn operation() -> impl Strategy<Value = Operation> {
-    let constant = || prop_oneof![Just(0.0), Just(0.1), Just(-2.0), -9.0..9.0f64];
-    prop_oneof![
-        4 => prop::sample::select(vec![
-            Operation::Add, Operation::Sub, Operation::Mul, Operation::Div, Operation::Neg,
-            Operation::Sqr,
-        ]),
-        2 => (-9..12i32).prop_map(Operation::Power),
-        1 => constant().prop_map(Operation::RealPower),
-        1 => constant().prop_map(Operation::Scale),
-        1 => constant().prop_map(Operation::Offset),
-        10 => prop::sample::select(Unary::ALL).prop_map(Operation::Unary),
-        4 => prop::sample::select(Binary::ALL).prop_map(Operation::Binary),
-    ]
-}
+use zeroset_ia::{Interval, Set};
 
 fn contains<S: Float>(outer: Interval<S, Set>, inner: Interval<S, Set>) -> bool {
     inner.is_empty() || outer.lo <= inner.lo && inner.hi <= outer.hi
@@ -95,7 +43,7 @@ fn check_monotony<S: Float>(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(20_000) })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(50_000) })]
 
     #[test]
     fn single_precision_contains_the_exact_result(

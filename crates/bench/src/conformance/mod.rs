@@ -42,7 +42,7 @@ impl fmt::Display for Failure {
 /// A method that does not support the scene passes if it says so whenever it is asked.
 pub fn check(method: &dyn Method, scene: &Scene) -> Vec<Failure> {
     match truth::reference(scene) {
-        Ok(oracle) => check_with(oracle.as_ref(), method, scene),
+        Ok(oracle) => check_with(&oracle, method, scene),
         Err(error) => {
             vec![Failure { rule: "the reference has the scene", detail: error.to_string() }]
         }

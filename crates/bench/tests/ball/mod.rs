@@ -20,11 +20,11 @@ pub(crate) fn scene() -> Scene {
 /// What is known of a valid ray, from the quadratic a t^2 + 2 b t + c = 0 in interval arithmetic.
 fn truth(ray: Ray, range: [f64; 2], domain: &Domain) -> Truth {
     type I = Interval<f64, Set>;
-    const NONE: Truth = Truth { class: Class::None, bracket: [f64::INFINITY; 2] };
-    let undecidable =
-        |from: f64| Truth { class: Class::Undecidable, bracket: [from, f64::INFINITY] };
+    let known = |class, bracket| Truth { class, bracket, work: Work::default() };
+    let none = known(Class::None, [f64::INFINITY; 2]);
+    let undecidable = |from: f64| known(Class::Undecidable, [from, f64::INFINITY]);
 
-    let Some(clip) = domain.clip(ray, range) else { return NONE };
+    let Some(clip) = domain.clip(ray, range) else { return none };
     let [mut a, mut b, mut c] = [0.0, 0.0, -1.0].map(I::point);
     for axis in 0..3 {
         let o = I::point(f64::from(ray.origin[axis]));
@@ -33,7 +33,7 @@ fn truth(ray: Ray, range: [f64; 2], domain: &Domain) -> Truth {
     }
     let discriminant = b.sqr() - a * c;
     if discriminant.hi < 0.0 {
-        return NONE;
+        return none;
     }
     if !(discriminant.lo > 0.0) {
         return undecidable(clip.outer[0]);
@@ -44,13 +44,11 @@ fn truth(ray: Ray, range: [f64; 2], domain: &Domain) -> Truth {
             continue;
         }
         return match clip.inner {
-            Some([lo, hi]) if lo <= t.lo && t.hi <= hi => {
-                Truth { class: Class::Transversal, bracket: [t.lo, t.hi] }
-            }
+            Some([lo, hi]) if lo <= t.lo && t.hi <= hi => known(Class::Transversal, [t.lo, t.hi]),
             _ => undecidable(t.lo.max(clip.outer[0])),
         };
     }
-    NONE
+    none
 }
 
 /// The truth about the sphere.

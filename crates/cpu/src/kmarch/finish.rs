@@ -4,7 +4,7 @@
 //! where there is none. The finish settles them one ray at a time, in double precision.
 
 use zeroset_expr::{Evaluator, Tape};
-use zeroset_ia::{Dual, Interval, Set};
+use zeroset_ia::{Decorated, Dual, Interval, Set};
 use zeroset_raycast::{Clip, Ray, Work};
 
 type I = Interval<f64, Set>;
@@ -25,7 +25,7 @@ pub(super) struct Finish<'a> {
     values: Evaluator<'a, I>,
     slopes: Evaluator<'a, Dual<I, 1>>,
     /// Only if the function is not continuous wherever it is defined.
-    continuous: bool,
+    continuity: Option<Evaluator<'a, Decorated<f64>>>,
 }
 
 /// How many enclosures of value and slope a slab may cost.
@@ -37,7 +37,8 @@ impl<'a> Finish<'a> {
         Self {
             values: tape.evaluator(&zero),
             slopes: tape.evaluator(&Dual::constant_value(zero)),
-            continuous: is_everywhere_continuous(tape),
+            continuity: (!tape.is_everywhere_continuous())
+                .then(|| tape.evaluator(&Decorated::new(zero))),
         }
     }
 
@@ -147,8 +148,12 @@ impl<'a> Finish<'a> {
 
     /// Is the function proven to be defined and continuous over a range of t?
     fn is_continuous(&mut self, ray: Ray, range: [f64; 2]) -> bool {
-        let _ = (ray, range);
-        self.continuous
+        match &mut self.continuity {
+            None => true,
+            Some(evaluator) => {
+                evaluator.evaluate(along(ray, range).map(Decorated::new)).is_continuous()
+            }
+        }
     }
 }
 
@@ -163,18 +168,4 @@ fn along(ray: Ray, [a, b]: [f64; 2]) -> [I; 3] {
 /// The sign of all members, or 0.
 fn sign(x: I) -> i32 {
     i32::from(x.lo > 0.0) - i32::from(x.hi < 0.0)
-}
-
-fn is_everywhere_continuous(tape: &Tape) -> bool {
-    use zeroset_expr::Op;
-    use zeroset_ia::{Binary, Unary};
-    tape.instructions().iter().all(|i| match i.op {
-        Op::Div(..) | Op::Powc(..) => false,
-        Op::Powi(_, n) => n >= 0,
-        Op::Unary(f, _) => {
-            matches!(f, Unary::Abs | Unary::Exp | Unary::Sin | Unary::Cos | Unary::Cbrt)
-        }
-        Op::Binary(f, ..) => matches!(f, Binary::Min | Binary::Max),
-        _ => true,
-    })
 }

@@ -1,9 +1,9 @@
-//! Hostile numbers and intervals, shared by the property tests.
+//! Hostile numbers, intervals and operations, shared by the property tests.
 
-#![allow(dead_code)]
+#![allow(dead_code, unreachable_pub, missing_docs)]
 
 use proptest::prelude::*;
-use zeroset_ia::{BigInterval, Interval, Scalar, Set};
+use zeroset_ia::{BigInterval, Binary, Constant, Interval, Number, Scalar, Set, Unary};
 
 /// Bits of the oracle.
 pub const ORACLE: usize = 256;
@@ -113,4 +113,58 @@ pub fn nested<S: Float>() -> impl Strategy<Value = [Interval<S, Set>; 2]> {
 /// The oracle's view of an interval.
 pub fn exactly<S: Scalar>(x: Interval<S, Set>) -> BigInterval {
     BigInterval::from_bounds(x.lo.to_f64(), x.hi.to_f64(), ORACLE)
+}
+
+/// An operation that any number has.
+#[derive(Clone, Debug)]
+pub enum Operation {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Neg,
+    Sqr,
+    Power(i32),
+    RealPower(f64),
+    Scale(f64),
+    Offset(f64),
+    Unary(Unary),
+    Binary(Binary),
+}
+
+impl Operation {
+    #[inline(always)]
+    pub fn apply<N: Number>(&self, x: N, y: N) -> N {
+        match *self {
+            Self::Add => x + y,
+            Self::Sub => x - y,
+            Self::Mul => x * y,
+            Self::Div => x / y,
+            Self::Neg => -x,
+            Self::Sqr => x.sqr(),
+            Self::Power(n) => x.powi(n),
+            Self::RealPower(c) => x.powc(&Constant::from_f64(c)),
+            Self::Scale(c) => x.scale(&Constant::from_f64(c)),
+            Self::Offset(c) => x.offset(&Constant::from_f64(c)),
+            Self::Unary(f) => x.unary(f),
+            Self::Binary(f) => x.binary(f, y),
+        }
+    }
+}
+
+/// Each operation, the elementary functions most often.
+pub fn operation() -> impl Strategy<Value = Operation> {
+    let constant = || prop_oneof![Just(0.0), Just(0.1), Just(-2.0), -9.0..9.0f64];
+    prop_oneof![
+        4 => prop::sample::select(vec![
+            Operation::Add, Operation::Sub, Operation::Mul, Operation::Div, Operation::Neg,
+            Operation::Sqr,
+        ]),
+        2 => (-9..12i32).prop_map(Operation::Power),
+        1 => constant().prop_map(Operation::RealPower),
+        1 => constant().prop_map(Operation::Scale),
+        1 => constant().prop_map(Operation::Offset),
+        10 => prop::sample::select(Unary::ALL).prop_map(Operation::Unary),
+        4 => prop::sample::select(Binary::ALL).prop_map(Operation::Binary),
+    ]
 }
