@@ -4,7 +4,7 @@ mod numbers;
 
 use numbers::{Float, Operation, bounded, exactly, finite, interval, operation};
 use proptest::prelude::*;
-use zeroset_ia::{Binary, Constant, Dual, Interval, Nearest, Number, Raw, Scalar, Set, Unary};
+use zeroset_ia::{Binary, Constant, Dual, Interval, Nearest, Number, Raw, Set, Unary};
 
 const INFINITY: f64 = f64::INFINITY;
 const EMPTY: [f64; 2] = [f64::NAN; 2];

@@ -44,6 +44,17 @@ impl Domain {
         Ok(domain)
     }
 
+    /// The domain cut with a ball of that radius around the box's centre.
+    ///
+    /// # Errors
+    /// If the radius is not above 0, or not finite.
+    pub fn with_ball(self, radius: f64) -> Result<Self, Error> {
+        if radius > 0.0 && radius.is_finite() {
+            return Ok(Self { ball: Some(radius), ..self });
+        }
+        Err(Error::Domain(format!("the domain's ball has radius {radius}; give one above 0")))
+    }
+
     /// The middle of the box.
     pub fn centre(&self) -> DVec3 {
         0.5 * (self.min + self.max)
@@ -60,9 +71,13 @@ impl Domain {
         (self.max - self.min).max_element()
     }
 
-    /// The part of a valid ray within `range` that lies in the domain; `None` if there is surely none.
+    /// The part of a valid ray within `range` that lies in the domain; `None` if there is surely none,
+    /// as in a range with an end that is NaN.
     pub fn clip(&self, ray: Ray, range: [f64; 2]) -> Option<Clip> {
         type I = Interval<f64, Set>;
+        if !(range[0] <= range[1]) {
+            return None;
+        }
         let mut outer = range;
         let mut inner = range;
         let mut cut = |enter: I, leave: I| {
@@ -109,5 +124,33 @@ impl Domain {
             return None;
         }
         Some(Clip { outer, inner: (inner[0] <= inner[1]).then_some(inner) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_domain_is_refused() {
+        let (low, high) = (DVec3::new(-1.0, -2.0, -3.0), DVec3::new(1.0, 2.0, 3.0));
+        let domain = Domain::new(low, high).unwrap();
+        for bad in [-2.0, -3.0, f64::NAN, f64::INFINITY] {
+            let error = Domain::new(low, DVec3 { y: bad, ..high }).unwrap_err().to_string();
+            assert!(error.contains(&format!("y range [-2, {bad}]")), "{error}");
+        }
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(domain.with_ball(bad).unwrap_err().to_string().contains(&bad.to_string()));
+        }
+    }
+
+    #[test]
+    fn sizes() {
+        let domain = Domain::new(DVec3::new(-1.0, 0.0, 1.0), DVec3::new(1.0, 1.0, 3.0)).unwrap();
+        assert_eq!(domain.centre(), DVec3::new(0.0, 0.5, 2.0));
+        assert_eq!(domain.radius(), 1.5);
+        assert_eq!(domain.longest_side(), 2.0);
+        assert_eq!(domain.with_ball(1.0).unwrap().radius(), 1.0);
+        assert_eq!(domain.with_ball(2.0).unwrap().radius(), 1.5);
     }
 }

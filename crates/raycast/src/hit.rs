@@ -128,12 +128,9 @@ impl Hit {
 
     /// The middle of the bracket.
     pub fn t(&self) -> f64 {
-        middle(self.bracket)
+        let [lo, hi] = self.bracket;
+        lo.midpoint(hi)
     }
-}
-
-fn middle([lo, hi]: [f64; 2]) -> f64 {
-    if lo == hi { lo } else { 0.5 * (lo + hi) }
 }
 
 /// What a caller wants to know; a method computes nothing else.
@@ -208,5 +205,62 @@ impl Hits {
         let mut total = Work::default();
         self.work.iter().for_each(|w| total += *w);
         total
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn certificates_are_three_independent_bits() {
+        let names: Vec<_> = Certificate::ALL.iter().map(|c| c.name()).collect();
+        let expected = ["proven-hit", "possible-hit", "root-hit", "hit", "proven-miss", "miss"];
+        assert_eq!(names, expected);
+        let (hit, first, root) = (Certificate::HIT, Certificate::FIRST, Certificate::ROOT);
+        assert_eq!(hit | first | root, Certificate::PROVEN_HIT);
+        assert_eq!(hit | first, Certificate::POSSIBLE_HIT);
+        assert_eq!(hit | root, Certificate::ROOT_HIT);
+        assert_eq!(first, Certificate::PROVEN_MISS);
+        for certificate in Certificate::ALL {
+            assert_eq!(certificate.is_hit(), certificate.name().ends_with("hit"));
+            assert_eq!(certificate | Certificate::MISS, certificate);
+            assert!(Certificate::PROVEN_HIT.contains(certificate));
+            // No miss claims a root.
+            assert!(certificate.is_hit() || !certificate.contains(root));
+        }
+        assert_eq!(format!("{:>12}", Certificate::HIT), "         hit");
+    }
+
+    #[test]
+    fn a_hit_is_in_the_middle_of_its_bracket() {
+        let hit = |lo: f64, hi: f64| Hit {
+            bracket: [lo, hi],
+            certificate: Certificate::HIT,
+            work: Work::default(),
+        };
+        for [lo, hi] in [[1.0, 1.0], [1.0, 1.0_f64.next_up()], [5e-324, 1e-323], [1e308, 1.7e308]] {
+            let t = hit(lo, hi).t();
+            assert!(lo <= t && t <= hi, "{t} in [{lo}, {hi}]");
+        }
+        assert_eq!(Hit::miss(Certificate::PROVEN_MISS, Work::default()).t(), f64::INFINITY);
+    }
+
+    #[test]
+    fn answers_are_kept_in_order() {
+        for (request, normals) in
+            [(Request::First, 0), (Request::FirstWithNormal, 3), (Request::Any, 0)]
+        {
+            let mut hits = Hits::new(request, 3);
+            assert_eq!((hits.len(), hits.normal.len(), hits.is_empty()), (3, normals, false));
+            assert_eq!(hits.get(0), Hit::miss(Certificate::MISS, Work::default()));
+            let work = Work { points: 1, gradients: 2, intervals: 3, nonfinite: 4 };
+            let hit = Hit { bracket: [1.0, 2.0], certificate: Certificate::ROOT_HIT, work };
+            hits.set(1, hit);
+            hits.set(2, Hit { bracket: [3.0, 4.0], ..hit });
+            assert_eq!(hits.get(1), hit);
+            let total = Work { points: 2, gradients: 4, intervals: 6, nonfinite: 8 };
+            assert_eq!(hits.total_work(), total);
+        }
     }
 }

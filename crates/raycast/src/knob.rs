@@ -44,6 +44,46 @@ pub fn choice<T: Copy>(knob: &str, value: &str, choices: &[(&str, T)]) -> Result
 
 /// The error for a knob that `method` does not have.
 pub fn unknown(method: &str, knob: &str, known: &[Knob]) -> KnobError {
-    let known: Vec<_> = known.iter().map(|k| k.name).collect();
-    KnobError::Unknown { method: method.into(), knob: knob.into(), known: known.join(", ") }
+    let names: Vec<_> = known.iter().map(|k| k.name).collect();
+    let known = if names.is_empty() { "none".into() } else { names.join(", ") };
+    KnobError::Unknown { method: method.into(), knob: knob.into(), known }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_within_limits_are_read() {
+        let limits = [0.0, 2.0];
+        for (text, value) in [("0", 0.0), ("2", 2.0), (" 1e-3 ", 1e-3), ("-0", 0.0)] {
+            assert_eq!(number("step", text, limits), Ok(value), "{text:?}");
+        }
+        for text in ["", "nan", "inf", "-1e-300", "2.0000001", "1e999", "1,5", "0x1"] {
+            let error = number("step", text, limits).unwrap_err().to_string();
+            let expected = format!("knob step cannot be {text:?}: it takes a number from 0 to 2");
+            assert_eq!(error, expected);
+        }
+        assert!(number("step", "inf", [0.0, f64::INFINITY]).is_err());
+    }
+
+    #[test]
+    fn choices_are_listed() {
+        let choices = [("outward", 1), ("nearest", 2)];
+        assert_eq!(choice("rounding", " nearest", &choices), Ok(2));
+        let error = choice("rounding", "Nearest", &choices).unwrap_err().to_string();
+        assert_eq!(error, "knob rounding cannot be \"Nearest\": it takes outward or nearest");
+    }
+
+    #[test]
+    fn unknown_knobs_are_answered_with_the_known_ones() {
+        let knob = |name| Knob { name, value: String::new(), doc: "" };
+        let error = unknown("amp-sign", "stepp", &[knob("step"), knob("bisections")]);
+        assert_eq!(
+            error.to_string(),
+            "method amp-sign has no knob \"stepp\"; it has step, bisections"
+        );
+        let error = unknown("reference", "step", &[]).to_string();
+        assert!(error.ends_with("it has none"), "{error}");
+    }
 }

@@ -73,6 +73,9 @@ impl Rays<'_> {
     }
 
     /// The ray of that index.
+    ///
+    /// # Panics
+    /// If there are not so many.
     pub fn get(self, index: usize) -> Ray {
         match self {
             Self::View(view) => view.ray(index % view.width, index / view.width),
@@ -86,5 +89,45 @@ impl Rays<'_> {
             Self::View(_) => [0.0, f64::INFINITY],
             Self::Batch(batch) => batch.range,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Camera, Domain};
+
+    #[test]
+    fn valid_rays_are_finite_and_have_a_direction() {
+        let good = Ray::new(Vec3::ZERO, Vec3::new(0.0, 1e-45, 0.0));
+        assert!(good.is_valid());
+        for bad in [0.0, f32::NAN, f32::INFINITY] {
+            assert!(!Ray { direction: Vec3::new(bad, 0.0, -0.0), ..good }.is_valid(), "{bad}");
+        }
+        for bad in [f32::NAN, f32::NEG_INFINITY] {
+            assert!(!Ray { origin: Vec3::new(0.0, 0.0, bad), ..good }.is_valid(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn t_counts_the_direction_as_given() {
+        let ray = Ray::new(Vec3::new(1.0, 2.0, 3.0), Vec3::new(0.0, -2.0, 0.5));
+        assert_eq!(ray.at(4.0), DVec3::new(1.0, -6.0, 5.0));
+    }
+
+    #[test]
+    fn views_count_row_by_row_from_the_top() {
+        let domain = Domain::new(DVec3::splat(-1.0), DVec3::splat(1.0)).unwrap();
+        let view = View::new(Camera::facing(&domain), 3, 2);
+        let rays = Rays::View(&view);
+        assert_eq!((rays.len(), rays.is_empty()), (6, false));
+        assert_eq!(rays.get(4), view.ray(1, 1));
+        assert_eq!(rays.range(), [0.0, f64::INFINITY]);
+
+        let batch = RayBatch::new((0..6).map(|i| rays.get(i)).collect());
+        let listed = Rays::Batch(&batch);
+        assert!((0..6).all(|i| listed.get(i) == rays.get(i)));
+        assert_eq!(listed.range(), rays.range());
+        assert!(Rays::Batch(&RayBatch::new(Vec::new())).is_empty());
     }
 }

@@ -23,7 +23,7 @@ pub struct Scene {
     pub parameters: Parameters,
     /// Where roots count.
     pub domain: Domain,
-    /// The base step that [singh2010] publishes for this surface, in units of space.
+    /// The base step that \[singh2010\] publishes for this surface, in units of space.
     pub published_step: Option<f64>,
 }
 
