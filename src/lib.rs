@@ -94,9 +94,15 @@
 //! # 4. Surfaces have names
 //!
 //! ```
-//! use zeroset::raycast::catalogue::Catalogue;
+//! use zeroset::raycast::catalogue::{self, Catalogue};
 //!
-//! let scene = Catalogue::standard().resolve("barth-sextic")?;
+//! let barth = Catalogue::builtin().get("barth-sextic").unwrap();
+//! assert_eq!(barth.degree, Some(6));
+//! assert!(barth.papers.iter().any(|paper| paper.starts_with("knoll2007")));
+//!
+//! // An id, a file or an equation, as on the command line; the domain is found from the function.
+//! let scene = catalogue::resolve("x^2 + y^2 + z^2 = 9", None)?.scene()?;
+//! assert!(scene.domain.min.x < -3.0 && 3.0 < scene.domain.max.x);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -106,10 +112,10 @@
 //! use zeroset::bench::{self, Options, Verdict};
 //! use zeroset::raycast::{Camera, Progress, Rays, View, catalogue::Catalogue};
 //!
-//! let scene = Catalogue::standard().resolve("torus")?;
+//! let scene = Catalogue::builtin().get("torus").unwrap().scene()?;
 //! let view = View::new(Camera::facing(&scene.domain), 32, 32);
 //! let options = Options { runs: 1, ..Options::default() };
-//! let methods = [bench::method("amp")?, bench::method("kmarch")?];
+//! let methods = [bench::method("amp-sign")?, bench::method("kmarch")?];
 //! let comparison = bench::compare(
 //!     &scene,
 //!     Rays::View(&view),
