@@ -8,7 +8,9 @@
 use zeroset_bench::{Class, Sample, Tolerance, Truths, judge, truth};
 use zeroset_cpu::Kmarch;
 use zeroset_raycast::catalogue::Catalogue;
-use zeroset_raycast::{Camera, Certificate, Hits, Method, Progress, Rays, Request, Scene, View};
+use zeroset_raycast::{
+    Camera, Certificate, Hits, Method, Progress, Rays, Request, Scene, View,
+};
 
 /// Pixels along a side: few, for 71 surfaces in debug builds; `compare` judges whole images.
 const SIZE: usize = 48;
