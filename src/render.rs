@@ -90,6 +90,11 @@ impl Render {
             work(&report, hits.len()),
             file.display().to_string(),
         ];
+        if !hits.certificate.iter().any(|c| c.is_hit()) {
+            eprintln!(
+                "zeroset: nothing was hit; is the surface in the --domain and in the --camera?"
+            );
+        }
         output::print(format!("{}\n", facts.join("\n")).as_bytes())
     }
 
