@@ -34,7 +34,7 @@ impl CameraText {
         if !camera.eye.as_vec3().is_finite() || !camera.at.is_finite() {
             return Err(Failure::usage(format!(
                 "the camera's eye {:?} is beyond single precision, in which rays start; give a nearer \
-                 one with --camera, or a smaller --domain",
+                 one with --camera, or another --domain",
                 camera.eye.to_array()
             )));
         }

@@ -92,7 +92,7 @@ impl Render {
         ];
         if !hits.certificate.iter().any(|c| c.is_hit()) {
             eprintln!(
-                "zeroset: nothing was hit; is the surface in the --domain and in the --camera?"
+                "zeroset: nothing was hit: is the surface in the domain, and the domain in view? See --domain and --camera"
             );
         }
         output::print(format!("{}\n", facts.join("\n")).as_bytes())
