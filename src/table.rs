@@ -42,7 +42,7 @@ pub(crate) fn tables(comparison: &Comparison, rays: usize) -> String {
     }
     match (&comparison.truths, &comparison.no_truth) {
         (Some(truths), _) if !outcomes.is_empty() => {
-            parts.push(format!("{}\n{}", sampling(truths, rays), judged(&outcomes)));
+            parts.push(format!("{}\n\n{}", sampling(truths, rays), judged(&outcomes)));
         }
         (None, Some(why)) => parts.push(format!("Not judged: {why}")),
         _ => {}
@@ -159,7 +159,7 @@ fn judged(outcomes: &Rows<'_>) -> String {
         ]);
     }
     format!(
-        "{table}\nIn brackets: misses of roots that only touch, hits without a root in any \
+        "{table}\n\nIn brackets: misses of roots that only touch, hits without a root in any \
          neighbouring pixel"
     )
 }

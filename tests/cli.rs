@@ -445,3 +445,26 @@ fn an_interruption_keeps_what_is_finished_whole() {
     }
     panic!("nothing was finished in 32 s");
 }
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_picture_is_not_written() {
+    let dir = folder();
+    let arguments = ["render", "barth-decic", "--size", "4096x2048", "--precision", "1e-9"];
+    let child = start(dir.path(), &arguments);
+    std::thread::sleep(Duration::from_secs(2));
+    let pid = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+    let outcome = end(child);
+    assert_eq!((outcome.status, outcome.stdout.as_str()), (130, ""), "{}", outcome.stderr);
+    assert_eq!(files(&dir.path().join("out")), [""; 0]);
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_is_no_failure() {
+    let dir = folder();
+    let mut child = start(dir.path(), &["list", "--json"]);
+    drop(child.stdout.take());
+    let outcome = end(child);
+    assert_eq!((outcome.status, outcome.stderr.as_str()), (0, ""));
+}
