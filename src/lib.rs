@@ -132,7 +132,7 @@
 //! ```
 //!
 //! The reference says of each ray whether its first root crosses the surface, touches it, or does
-//! not exist; every answer, and every claim of its certificate, is held against that. See [`bench`],
+//! not exist; every answer, and every claim of its certificate, is held against that. See [`mod@bench`],
 //! and [`shade`] for pictures and error maps.
 //!
 //! # 6. A method of your own
