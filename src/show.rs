@@ -29,7 +29,8 @@ impl Show {
         for parameter in function.parameters() {
             lines.push(("parameter", format!("{} = {}", parameter.name, parameter.default)));
         }
-        if let Some(degree) = surface.degree {
+        let tape = function.tape(&scene.parameters, 128).map_err(Failure::usage)?;
+        if let Some(degree) = tape.degree() {
             lines.push(("degree", degree.to_string()));
         }
         lines.push(("domain", domain(&scene.domain)));
