@@ -20,8 +20,8 @@ use crate::{output, surface, table};
 const EXAMPLES: &str = "\
 Examples:
   zeroset compare barth-sextic
-  zeroset compare 'x^4+y^4+z^4=1' --methods amp,kmarch --precision 1e-6
-  zeroset compare steiner --set amp.step=0.01 --runs 20 --out out/steiner
+  zeroset compare 'x^4+y^4+z^4=1' --methods amp-sign,kmarch --precision 1e-6
+  zeroset compare steiner --set amp-sign.step=0.01 --runs 20 --out out/steiner
   zeroset compare klein --json > klein.json
 
 Files: SURFACE-METHOD.png, SURFACE-METHOD-error.png and SURFACE-METHOD.exr (the hits as numbers) for
@@ -65,7 +65,7 @@ pub(crate) struct Compare {
 impl Compare {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = surface::scene(&self.scene)?;
+        let (surface, scene) = surface::scene(&self.scene)?;
         let view = self.camera.view(&scene.domain, self.size)?;
         let mut methods = self.select(&scene)?;
         self.knobs.set(&mut methods, &scene)?;
@@ -92,7 +92,7 @@ impl Compare {
         drop(bar);
 
         let context = Context {
-            equation: surface::equation(&self.scene)?,
+            equation: surface.equation,
             precision: Some(self.knobs.precision(&scene)),
             revision: env!("ZEROSET_REVISION").into(),
         };
@@ -109,13 +109,13 @@ impl Compare {
             output::print(b"\n")?;
         } else {
             let heading = format!(
-                "{}, {}x{} pixels, precision {}, {} of {} with {} threads",
+                "{}, {}x{} pixels, precision {:?}; {}, {}, {} threads",
                 scene.id,
                 view.width,
                 view.height,
-                short(self.knobs.precision(&scene)),
-                machine.isa,
+                self.knobs.precision(&scene),
                 machine.cpu,
+                machine.isa,
                 machine.threads
             );
             let tables = table::tables(&comparison, rays.len());
