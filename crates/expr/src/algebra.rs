@@ -193,7 +193,8 @@ impl Graph {
         }
         match *self.node(b) {
             Node::Mul(c, rest)
-                if self.is_constant(a) && (self.scales(c, rest) || self.are_numbers(a, c)) =>
+                if self.is_constant(a)
+                    && (self.scales(c, rest) || self.are_numbers(a, c)) =>
             {
                 let c = self.mul(a, c);
                 return self.mul(c, rest);
@@ -271,7 +272,7 @@ impl Graph {
         }
         if let Node::Neg(a) = *self.node(a) {
             let power = self.power(a, b);
-            return if !n.bit(0) { power } else { self.neg(power) };
+            return if n.bit(0) { self.neg(power) } else { power };
         }
         self.fold(Node::Power(a, b))
     }

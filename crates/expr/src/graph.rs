@@ -163,6 +163,18 @@ impl Graph {
         self.number(id).is_some_and(|r| r.denom().is_one() && *r.numer() == n.into())
     }
 
+    /// The default value of a parameter.
+    ///
+    /// # Panics
+    /// If there is no such parameter.
+    pub(crate) fn default_value(&self, parameter: u32) -> Id {
+        let default = self.nodes.iter().find_map(|node| match node {
+            Node::Parameter(i, default) if *i == parameter => Some(*default),
+            _ => None,
+        });
+        default.expect("there is such a parameter")
+    }
+
     /// The place of a node, old or new.
     pub(crate) fn intern(&mut self, node: Node) -> Id {
         let commuted = || node.commuted().and_then(|n| self.ids.get(&n));
@@ -201,7 +213,11 @@ impl Graph {
     /// The nodes that `root` is made of, operands first, each once, in the order of first use.
     ///
     /// `operands` may hide the operands of some nodes, or change their order.
-    pub(crate) fn postorder(&self, root: Id, operands: impl Fn(Id) -> [Option<Id>; 2]) -> Vec<Id> {
+    pub(crate) fn postorder(
+        &self,
+        root: Id,
+        operands: impl Fn(Id) -> [Option<Id>; 2],
+    ) -> Vec<Id> {
         let mut order = Vec::new();
         let mut seen = vec![false; self.len()];
         // Not recursive: a sum of many terms is as deep as it is long.
@@ -241,7 +257,7 @@ impl Graph {
 }
 
 /// Is the function defined and finite for all real arguments?
-fn is_total(f: Unary) -> bool {
+pub(crate) fn is_total(f: Unary) -> bool {
     match f {
         Unary::Sqrt
         | Unary::Log

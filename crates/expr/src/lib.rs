@@ -19,7 +19,10 @@ mod lexer;
 mod lower;
 mod names;
 mod parser;
+mod prelude;
+mod print;
 mod rational;
+mod root;
 pub mod tape;
 
 pub use error::{ParameterError, ParseError};

@@ -345,7 +345,7 @@ impl<'a> Parser<'a> {
         if let Some(known) = names::synonym(name) {
             return error.help(format!("write `{known}`"));
         }
-        match names::nearest(name, self.context.names().chain(names::known())) {
+        match names::nearest(name, names::known().chain(self.context.names())) {
             Some(near) => error.help(format!("did you mean {near}?")),
             None if called => error,
             None if self.place == Place::Equation => error.help(format!(

@@ -46,9 +46,9 @@ pub(crate) fn decimal(text: &str) -> Option<Rational> {
 /// Text that reads as the number: an integer, a short decimal, or a quotient.
 pub(crate) fn text(r: &Rational) -> String {
     let (mut rest, mut twos, mut fives) = (r.denom().clone(), 0, 0);
-    for (factor, count) in [(2_u32, &mut twos), (5, &mut fives)] {
-        while *count <= 20 && Zero::is_zero(&(&rest % BigInt::from(factor))) {
-            rest /= BigInt::from(factor);
+    for (factor, count) in [(2_u8, &mut twos), (5, &mut fives)] {
+        while *count <= 20 && (&rest % BigInt::from(factor)).is_zero() {
+            rest /= factor;
             *count += 1;
         }
     }
