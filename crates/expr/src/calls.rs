@@ -180,11 +180,7 @@ impl Parser<'_> {
     }
 
     /// Reads the `[i]` of a named table.
-    pub(crate) fn table_entry(
-        &mut self,
-        name: &str,
-        span: Range<usize>,
-    ) -> Result<Id, ParseError> {
+    pub(crate) fn table_entry(&mut self, name: &str, span: Range<usize>) -> Result<Id, ParseError> {
         let length = self.context.table_length(name).expect("it is a table");
         let i = self.index(&format!("`{name}`"), span.clone(), length)?;
         let error = self.error(span, "");

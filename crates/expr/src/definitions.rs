@@ -33,11 +33,8 @@ impl Chunk {
             None => error,
         };
         if text.len() > parser::MAX_TEXT {
-            let message = format!(
-                "the text has {} bytes: at most {} are read",
-                text.len(),
-                parser::MAX_TEXT
-            );
+            let message =
+                format!("the text has {} bytes: at most {} are read", text.len(), parser::MAX_TEXT);
             return Err(name(ParseError::new("", 0..0, message)));
         }
         let tokens: Rc<[Token]> = lexer::tokens(text).map_err(name)?.into();
@@ -292,7 +289,9 @@ impl Context {
         };
         match entries[i].state {
             State::Read(id) => Ok(id),
-            State::Reading => Err(error(format!("entry {} of `{name}` is defined by itself", i + 1))),
+            State::Reading => {
+                Err(error(format!("entry {} of `{name}` is defined by itself", i + 1)))
+            }
             State::Unread => {
                 let chunk = entries[i].chunk.clone();
                 self.set_state(name, i, State::Reading);
@@ -354,7 +353,9 @@ fn entries(table: &Chunk) -> Result<Vec<Entry>, ParseError> {
     }
     let entries = table.part(start + 1..end - 1).split(',');
     match entries.iter().find(|e| e.range.is_empty()) {
-        Some(_) if entries.len() == 1 => Err(table.error(table.span(), "this table has no entries")),
+        Some(_) if entries.len() == 1 => {
+            Err(table.error(table.span(), "this table has no entries"))
+        }
         Some(e) => Err(table.error(e.span(), "an entry of the table is missing here")),
         None => Ok(entries.into_iter().map(Entry::new).collect()),
     }

@@ -213,11 +213,7 @@ impl Graph {
     /// The nodes that `root` is made of, operands first, each once, in the order of first use.
     ///
     /// `operands` may hide the operands of some nodes, or change their order.
-    pub(crate) fn postorder(
-        &self,
-        root: Id,
-        operands: impl Fn(Id) -> [Option<Id>; 2],
-    ) -> Vec<Id> {
+    pub(crate) fn postorder(&self, root: Id, operands: impl Fn(Id) -> [Option<Id>; 2]) -> Vec<Id> {
         let mut order = Vec::new();
         let mut seen = vec![false; self.len()];
         // Not recursive: a sum of many terms is as deep as it is long.

@@ -54,11 +54,7 @@ pub(crate) fn only_root(
 }
 
 /// The coefficients of a polynomial expression in x.
-fn expand(
-    graph: &Graph,
-    root: Id,
-    constants: &HashMap<Id, Value>,
-) -> Result<Polynomial, String> {
+fn expand(graph: &Graph, root: Id, constants: &HashMap<Id, Value>) -> Result<Polynomial, String> {
     let mut known: HashMap<Id, Polynomial> = HashMap::new();
     for id in graph.postorder(root, |id| match graph.is_constant(id) {
         true => [None, None],
@@ -203,9 +199,8 @@ fn bisect(p: &[BigInt], precision: usize) -> Value {
         }
         let magnitude = lo.abs().min(hi.abs()).bits().to_usize().unwrap_or(usize::MAX);
         if (&hi - &lo).bits() + 1 < 64 && magnitude > precision + 64 {
-            let ends = [lo, hi].map(|m| {
-                rational::enclose(&Rational::new(m, BigInt::one() << k), precision)
-            });
+            let ends = [lo, hi]
+                .map(|m| rational::enclose(&Rational::new(m, BigInt::one() << k), precision));
             return Value::Enclosed(ends[0].hull(&ends[1]));
         }
     }

@@ -37,8 +37,7 @@ impl<'a> Finish<'a> {
         Self {
             values: tape.evaluator(&zero),
             slopes: tape.evaluator(&Dual::constant_value(zero)),
-            continuity: (!tape.is_continuous())
-                .then(|| tape.evaluator(&Decorated::new(zero))),
+            continuity: (!tape.is_continuous()).then(|| tape.evaluator(&Decorated::new(zero))),
         }
     }
 
