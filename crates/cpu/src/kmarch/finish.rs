@@ -31,6 +31,9 @@ pub(super) struct Finish<'a> {
 /// How many enclosures of value and slope a slab may cost.
 const BUDGET: u64 = 48;
 
+/// How many a ray may cost before a slab is accepted unsettled.
+pub(super) const RAY_BUDGET: u64 = 512;
+
 impl<'a> Finish<'a> {
     pub(super) fn new(tape: &'a Tape) -> Self {
         let zero = I::point(0.0);

@@ -361,7 +361,10 @@ impl Judge for Answers<'_> {
         }
         .max(8.0 * f64::EPSILON * hi.abs());
         let mut work = Work::default();
+        let spent = self.hits[marcher.ray].work.gradients;
         let finding = match &mut self.finish {
+            // A function whose enclosures tell nothing would have every slab settled.
+            Some(_) if spent >= finish::RAY_BUDGET => Finding::Unknown,
             Some(finish) => finish.settle(self.rays[marcher.ray], clip, slab, width, &mut work),
             None => Finding::Unknown,
         };
