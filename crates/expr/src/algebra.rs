@@ -193,8 +193,7 @@ impl Graph {
         }
         match *self.node(b) {
             Node::Mul(c, rest)
-                if self.is_constant(a)
-                    && (self.scales(c, rest) || self.are_numbers(a, c)) =>
+                if self.is_constant(a) && (self.scales(c, rest) || self.are_numbers(a, c)) =>
             {
                 let c = self.mul(a, c);
                 return self.mul(c, rest);

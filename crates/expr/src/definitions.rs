@@ -1,6 +1,6 @@
 //! What an equation defines after its `;`, and what is defined for it.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -33,11 +33,8 @@ impl Chunk {
             None => error,
         };
         if text.len() > parser::MAX_TEXT {
-            let message = format!(
-                "the text has {} bytes: at most {} are read",
-                text.len(),
-                parser::MAX_TEXT
-            );
+            let message =
+                format!("the text has {} bytes: at most {} are read", text.len(), parser::MAX_TEXT);
             return Err(name(ParseError::new("", 0..0, message)));
         }
         let tokens: Rc<[Token]> = lexer::tokens(text).map_err(name)?.into();
@@ -133,7 +130,7 @@ pub(crate) struct Context {
     pub(crate) indices: Vec<(String, i64)>,
     /// Open parentheses, signs, powers and definitions.
     pub(crate) depth: usize,
-    /// Operands read so far; those of a sum count once a term.
+    /// Operands read so far, as if sums and Chebyshev polynomials were written out.
     pub(crate) operands: usize,
     /// Where each constant was first written.
     pub(crate) written: HashMap<Id, (Chunk, Range<usize>)>,
@@ -200,7 +197,7 @@ impl Context {
     pub(crate) fn split(&mut self, all: &Chunk) -> Result<Chunk, ParseError> {
         let mut parts = all.split(';').into_iter();
         let equation = parts.next().expect("there is a first part");
-        let mut named = Vec::new();
+        let mut named = HashSet::new();
         for part in parts.filter(|p| !p.range.is_empty()) {
             let start = part.range.start;
             let name = &part.tokens[start];
@@ -209,15 +206,15 @@ impl Context {
                     .error(part.span(), "expected a definition after `;`")
                     .help("definitions are written as `r = 1` or `t = [1, 2, 3]`"));
             }
-            named.push((part.text[name.span.clone()].to_string(), name.span.clone()));
+            let span = name.span.clone();
+            let name = &part.text[span.clone()];
             let value = part.part(start + 2..part.range.end);
             let definition = if value.is_symbol(start + 2, '[') {
                 Definition::Table(entries(&value)?)
             } else {
                 Definition::Parameter(Entry::new(value))
             };
-            let (name, span) = named.last().expect("just pushed");
-            if named.iter().filter(|(n, _)| n == name).count() == 1 {
+            if named.insert(name.to_string()) {
                 self.definitions.remove(name);
             }
             self.insert(name, definition, |m| part.error(span.clone(), m))?;
@@ -292,7 +289,9 @@ impl Context {
         };
         match entries[i].state {
             State::Read(id) => Ok(id),
-            State::Reading => Err(error(format!("entry {} of `{name}` is defined by itself", i + 1))),
+            State::Reading => {
+                Err(error(format!("entry {} of `{name}` is defined by itself", i + 1)))
+            }
             State::Unread => {
                 let chunk = entries[i].chunk.clone();
                 self.set_state(name, i, State::Reading);
@@ -354,7 +353,9 @@ fn entries(table: &Chunk) -> Result<Vec<Entry>, ParseError> {
     }
     let entries = table.part(start + 1..end - 1).split(',');
     match entries.iter().find(|e| e.range.is_empty()) {
-        Some(_) if entries.len() == 1 => Err(table.error(table.span(), "this table has no entries")),
+        Some(_) if entries.len() == 1 => {
+            Err(table.error(table.span(), "this table has no entries"))
+        }
         Some(e) => Err(table.error(e.span(), "an entry of the table is missing here")),
         None => Ok(entries.into_iter().map(Entry::new).collect()),
     }

@@ -59,9 +59,8 @@ impl ParseError {
         let right = if rest.clone().count() > CONTEXT { "..." } else { "" };
 
         let plain = |c: &char| if c.is_control() { ' ' } else { *c };
-        let line: String = (before[skipped..].iter().chain(shown).chain(rest.take(CONTEXT)))
-            .map(plain)
-            .collect();
+        let line: String =
+            (before[skipped..].iter().chain(shown).chain(rest.take(CONTEXT))).map(plain).collect();
         let indent = " ".repeat(left.len() + before.len() - skipped);
         let carets = "^".repeat(shown.len().max(1));
         let mut out = format!(

@@ -86,7 +86,9 @@ fn number(text: &str, start: usize) -> Result<(Kind, usize), ParseError> {
         }
     }
     let hexadecimal = |c: char| c.is_ascii_hexdigit();
-    if &rest[..end] == "0" && rest[1..].starts_with(['x', 'X']) && rest[2..].starts_with(hexadecimal)
+    if &rest[..end] == "0"
+        && rest[1..].starts_with(['x', 'X'])
+        && rest[2..].starts_with(hexadecimal)
     {
         let end = start + 2 + run(&rest[2..], is_name);
         let message = format!("`{}` is no decimal number", &text[start..end]);
@@ -98,7 +100,7 @@ fn number(text: &str, start: usize) -> Result<(Kind, usize), ParseError> {
         None => Err(ParseError::new(
             text,
             start..start + end,
-            "this number is too long: at most about 1200 digits can be kept exactly",
+            "this number is too long: at most about 600 digits can be kept exactly",
         )),
     }
 }

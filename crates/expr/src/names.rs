@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn near_names() {
         assert_eq!(nearest("sqtr", known()).as_deref(), Some("`sqr` or `sqrt`"));
-        assert_eq!(nearest("arctan2", known()).as_deref(), None);
+        assert_eq!(nearest("arctan2", known()).as_deref(), Some("`atan2`"));
         assert_eq!(nearest("u", known()), None);
         assert_eq!(nearest("elephant", known()), None);
     }

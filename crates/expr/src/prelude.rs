@@ -85,7 +85,9 @@ impl Prelude {
             if graph.is_constant(id) {
                 let value = match graph.node(id) {
                     Node::Parameter(i, _) if given.contains_key(i) => given[i].clone(),
-                    node => prelude.evaluate(graph, node).and_then(|value| finite(value))
+                    node => prelude
+                        .evaluate(graph, node)
+                        .and_then(|value| finite(value))
                         .map_err(|message| Fault { id, message })?,
                 };
                 prelude.values.insert(id, value);
@@ -150,9 +152,10 @@ impl Prelude {
 
 /// An exponent within its limit.
 pub(crate) fn exponent(n: i64) -> Result<i32, String> {
-    i32::try_from(n).ok().filter(|n| n.unsigned_abs() <= MAX_EXPONENT).ok_or_else(|| {
-        format!("has the exponent {n}: integers are limited to {MAX_EXPONENT}")
-    })
+    i32::try_from(n)
+        .ok()
+        .filter(|n| n.unsigned_abs() <= MAX_EXPONENT)
+        .ok_or_else(|| format!("has the exponent {n}: integers are limited to {MAX_EXPONENT}"))
 }
 
 fn finite(value: Value) -> Result<Value, String> {

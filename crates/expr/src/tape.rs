@@ -176,9 +176,7 @@ impl Tape {
                 Op::Mul(..) => a.zip(b).map(|(a, b)| a.saturating_add(b)),
                 Op::Neg(_) | Op::Scale(..) | Op::Offset(..) => a,
                 Op::Sqr(_) => a.map(|a| a.saturating_mul(2)),
-                Op::Powi(_, n) => {
-                    a.zip(u32::try_from(n).ok()).map(|(a, n)| a.saturating_mul(n))
-                }
+                Op::Powi(_, n) => a.zip(u32::try_from(n).ok()).map(|(a, n)| a.saturating_mul(n)),
                 Op::Div(..) | Op::Powc(..) | Op::Unary(..) | Op::Binary(..) => None,
             };
         }
