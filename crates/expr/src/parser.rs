@@ -97,7 +97,7 @@ impl<'a> Parser<'a> {
         if self.place == Place::Polynomial(None) {
             return Err(self
                 .error(self.chunk.span(), "this polynomial has no unknown")
-                .help("write for example `root:7*a^3 + 7*a + 1`"));
+                .help("write for example `root:7*u^3 + 7*u + 1`"));
         }
         let root = self.context.graph.intern(Node::Root(polynomial));
         let chunk = self.chunk.clone();
@@ -351,6 +351,10 @@ impl<'a> Parser<'a> {
         if matches!(lower.as_str(), "inf" | "infinity" | "nan") {
             let message = format!("`{name}` is no number: infinite and undefined values are not");
             return self.error(span, message);
+        }
+        if name == "root" {
+            let message = "a root can only be the whole value of a parameter";
+            return self.error(span, message).help("write `...; a = root:7*u^3 + 7*u + 1`");
         }
         let called = self.peek_symbol() == Some('(');
         let kind = if called { "function" } else { "name" };
