@@ -56,16 +56,16 @@ impl Display for Form {
 
 /// Coefficients of T_n, from the constant upward.
 fn coefficients(n: u32) -> Vec<BigInt> {
-    let (mut before, mut last) = (vec![BigInt::from(1)], vec![BigInt::ZERO, BigInt::from(1)]);
-    for _ in 0..n {
-        let mut next = vec![BigInt::ZERO];
-        next.extend(last.iter().map(|c| c * 2));
-        for (c, b) in next.iter_mut().zip(&before) {
-            *c -= b;
+    let mut coefficients = vec![BigInt::ZERO; n as usize + 1];
+    let mut c = BigInt::from(1) << n.saturating_sub(1);
+    // (1 - x^2) T'' - x T' + n^2 T = 0 relates every other one.
+    for k in (0..=n).rev().step_by(2) {
+        coefficients[k as usize] = c.clone();
+        if k >= 2 {
+            c = -c * (k * (k - 1)) / (n * n - (k - 2) * (k - 2));
         }
-        before = std::mem::replace(&mut last, next);
     }
-    before
+    coefficients
 }
 
 /// The exact value of T_n at a rational.

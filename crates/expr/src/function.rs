@@ -106,12 +106,10 @@ impl Function {
 
         // Only what is used, numbered in the order of its first use.
         let used = used_parameters(&context.graph, root);
+        let places: HashMap<u32, u32> = used.iter().copied().zip(0..).collect();
         let mut graph = Graph::new();
         let root = graph.copy(&context.graph, root, |graph, node| match node {
-            Node::Parameter(old, default) => {
-                let new = used.iter().position(|i| *i == old).expect("it is used");
-                graph.make(Node::Parameter(new as u32, default))
-            }
+            Node::Parameter(old, default) => graph.make(Node::Parameter(places[&old], default)),
             node => graph.make(node),
         });
         let parameters = used.iter().map(|&i| context.parameters[i as usize].clone()).collect();
@@ -184,8 +182,9 @@ impl Display for Function {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let text = |id| self.graph.print(id, &self.parameters);
         f.write_str(&text(self.root))?;
+        let defaults = self.graph.default_values();
         for (i, Parameter { name, .. }) in self.parameters.iter().enumerate() {
-            let default = self.graph.default_value(i as u32);
+            let default = defaults[&(i as u32)];
             let half = Rational::new(1.into(), 2.into());
             if name != "w" || self.graph.number(default) != Some(&half) {
                 write!(f, "; {name} = {}", text(default))?;
@@ -247,6 +246,7 @@ fn read_value(name: &str, value: &str, precision: usize) -> Result<Value, Parame
             None => message,
         },
     })?;
+    let id = context.graph.expand(id);
     match Prelude::new(&context.graph, id, &HashMap::new(), precision) {
         Ok(prelude) => Ok(prelude.value(id).clone()),
         Err(fault) => {

@@ -163,16 +163,13 @@ impl Graph {
         self.number(id).is_some_and(|r| r.denom().is_one() && *r.numer() == n.into())
     }
 
-    /// The default value of a parameter.
-    ///
-    /// # Panics
-    /// If there is no such parameter.
-    pub(crate) fn default_value(&self, parameter: u32) -> Id {
-        let default = self.nodes.iter().find_map(|node| match node {
-            Node::Parameter(i, default) if *i == parameter => Some(*default),
+    /// The default values of parameters.
+    pub(crate) fn default_values(&self) -> HashMap<u32, Id> {
+        let default = |node: &Node| match *node {
+            Node::Parameter(i, default) => Some((i, default)),
             _ => None,
-        });
-        default.expect("there is such a parameter")
+        };
+        self.nodes.iter().filter_map(default).collect()
     }
 
     /// The place of a node, old or new.

@@ -6,14 +6,15 @@
 use std::collections::HashMap;
 
 use num_bigint::{BigInt, Sign};
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, Zero};
 
 use crate::graph::{Graph, Id, Node};
 use crate::prelude::Value;
 use crate::rational::{self, Rational};
 
-/// Degree times bits of the longest coefficient.
-const MAX_SIZE: u64 = 8192;
+/// Bits of the longest coefficient times the square of the number of coefficients: the time that
+/// counting the roots takes grows with its square.
+const MAX_SIZE: u64 = 100_000;
 
 /// Coefficients from the constant upward, the last of them not 0.
 type Polynomial = Vec<Rational>;
@@ -95,8 +96,12 @@ fn expand(graph: &Graph, root: Id, constants: &HashMap<Id, Value>) -> Result<Pol
 
 fn check_size(p: &Polynomial) -> Result<(), String> {
     let bits = p.iter().map(|c| c.numer().bits().max(c.denom().bits())).max().unwrap_or(0);
-    if bits * p.len() as u64 > MAX_SIZE {
-        return Err("is too large a polynomial".into());
+    let length = p.len() as u64;
+    if bits * length * length > MAX_SIZE {
+        return Err(format!(
+            "is too large a polynomial: (degree + 1)^2 times the bits of its longest coefficient \
+             may be at most {MAX_SIZE}"
+        ));
     }
     Ok(())
 }
@@ -124,7 +129,7 @@ fn scale(p: &Polynomial, factor: &Rational) -> Polynomial {
 
 fn multiply(a: &Polynomial, b: &Polynomial) -> Result<Polynomial, String> {
     let mut product = vec![Rational::zero(); (a.len() + b.len()).saturating_sub(1)];
-    for (i, x) in a.iter().enumerate() {
+    for (i, x) in a.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
         for (j, y) in b.iter().enumerate() {
             product[i + j] += x * y;
         }
@@ -189,7 +194,7 @@ fn bisect(p: &[BigInt], precision: usize) -> Value {
     let mut k = 0;
     let below = sign(p, &lo, k);
     loop {
-        // The bracket is [lo, hi] / 2^k, and one unit wide but at the start.
+        // The bracket is [lo, hi] / 2^k; its width in units stays the same.
         let middle: BigInt = &lo + &hi;
         (lo, hi, k) = (lo << 1, hi << 1, k + 1);
         match sign(p, &middle, k) {
@@ -197,8 +202,9 @@ fn bisect(p: &[BigInt], precision: usize) -> Value {
             s if s == below => lo = middle,
             _ => hi = middle,
         }
-        let magnitude = lo.abs().min(hi.abs()).bits().to_usize().unwrap_or(usize::MAX);
-        if (&hi - &lo).bits() + 1 < 64 && magnitude > precision + 64 {
+        // Far below the last place that is kept, so that the hull is as tight as it can be.
+        let width = (&hi - &lo).bits();
+        if lo.abs().min(hi.abs()).bits() > width + precision as u64 + 64 {
             let ends = [lo, hi]
                 .map(|m| rational::enclose(&Rational::new(m, BigInt::one() << k), precision));
             return Value::Enclosed(ends[0].hull(&ends[1]));
