@@ -22,12 +22,12 @@ pub(super) struct Marcher {
 }
 
 /// What becomes of a slab at a ray's last depth in which the function may vanish.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Verdict {
     /// The ray ends here.
     Stop,
-    /// The slab holds no root: the ray goes on.
-    Continue,
+    /// There is no root before this q: the ray goes on there.
+    Continue(f64),
 }
 
 /// Decides about slabs, and collects the answers.
@@ -58,7 +58,7 @@ impl<J: Judge> March<'_, J> {
                 // Lanes without a ray repeat the last one and are never active.
                 let track = |i: usize| packet[i.min(packet.len() - 1)].track;
                 let lattice = Lattice::new(zero, *axis, bounds, track);
-                march(&mut evaluator, &lattice, zero, packet, self.judge);
+                march(&mut evaluator, lattice, zero, packet, self.judge);
             }
         }
     }
@@ -90,7 +90,7 @@ impl<J: Judge> Kernel for SetMarch<'_, J> {
 #[inline(always)]
 fn march<R: Packet, F: Flavor>(
     evaluator: &mut Evaluator<'_, Interval<R, F>>,
-    lattice: &Lattice<R>,
+    mut lattice: Lattice<R>,
     zero: R,
     packet: &[Marcher],
     judge: &mut impl Judge,
@@ -137,8 +137,9 @@ fn march<R: Packet, F: Flavor>(
                     let lane = reached.trailing_zeros();
                     reached &= reached - 1;
                     let marcher = &packet[lane as usize];
-                    if judge.reached(marcher, slab, dropped >> lane & 1 == 1) == Verdict::Stop {
-                        alive &= !(1 << lane);
+                    match judge.reached(marcher, slab, dropped >> lane & 1 == 1) {
+                        Verdict::Stop => alive &= !(1 << lane),
+                        Verdict::Continue(q) => lattice.skip(1 << lane, q),
                     }
                 }
             }

@@ -280,6 +280,7 @@ impl Prepared {
                 Hit::miss(self.proof(Certificate::PROVEN_MISS), Work::default());
                 rays.len()
             ],
+            empty_until: vec![f64::NEG_INFINITY; rays.len()],
             finish: (self.method.finish == Finishing::Certify).then(|| Finish::new(&self.tape)),
         };
         let march =
@@ -346,6 +347,8 @@ struct Answers<'a> {
     rays: &'a [Ray],
     clips: &'a [Option<Clip>],
     hits: Vec<Hit>,
+    /// From where the march met its first slab to here, a ray is proven to have no root.
+    empty_until: Vec<f64>,
     finish: Option<Finish<'a>>,
 }
 
@@ -362,20 +365,28 @@ impl Judge for Answers<'_> {
         .max(8.0 * f64::EPSILON * hi.abs());
         let mut work = Work::default();
         let spent = self.hits[marcher.ray].work.gradients;
+        let unknown = Finding::Unknown([slab[0].min(slab[1]), slab[1]]);
         let finding = match &mut self.finish {
             // A function whose enclosures tell nothing would have every slab settled.
-            Some(_) if spent >= finish::RAY_BUDGET => Finding::Unknown,
-            Some(finish) => finish.settle(self.rays[marcher.ray], clip, slab, width, &mut work),
-            None => Finding::Unknown,
+            Some(_) if spent >= finish::RAY_BUDGET => unknown,
+            Some(finish) => {
+                let start = lo.max(self.empty_until[marcher.ray]);
+                let ray = self.rays[marcher.ray];
+                finish.settle(ray, clip, start, hi - lo, width, &mut work)
+            }
+            None => unknown,
         };
         let (bracket, certificate) = match finding {
-            Finding::Empty => (None, Certificate::MISS),
-            Finding::Root(bracket) => (Some(bracket), Certificate::PROVEN_HIT),
-            Finding::Unknown => (Some([slab[0].min(slab[1]), slab[1]]), Certificate::POSSIBLE_HIT),
+            Finding::EmptyUntil(t) => {
+                self.hits[marcher.ray].work += work;
+                self.empty_until[marcher.ray] = t;
+                return Verdict::Continue(marcher.track.q(t));
+            }
+            Finding::Root(bracket) => (bracket, Certificate::PROVEN_HIT),
+            Finding::Unknown(bracket) => (bracket, Certificate::POSSIBLE_HIT),
         };
         let hit = &mut self.hits[marcher.ray];
         hit.work += work;
-        let Some(bracket) = bracket else { return Verdict::Continue };
         hit.bracket = bracket;
         let certificate = if dropped { without_first(certificate) } else { certificate };
         hit.certificate = self.method.proof(certificate);

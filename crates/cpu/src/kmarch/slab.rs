@@ -109,6 +109,11 @@ impl Track {
         Self { origin, slope, range, start: t0, pace }
     }
 
+    /// The q at t, rounded down.
+    pub(super) fn q(&self, t: f64) -> f64 {
+        ((I::point(t) - self.start) / I::new(self.pace[0], self.pace[1])).lo
+    }
+
     /// The range of t between two boundaries, rounded outward.
     pub(super) fn t(&self, [from, to]: [f64; 2]) -> [f64; 2] {
         let pace = I::new(self.pace[0], self.pace[1]);
@@ -192,6 +197,14 @@ impl<R: Packet> Lattice<R> {
                 },
             ),
         }
+    }
+
+    /// Lets the rays of a mask start at `q`, rounded down.
+    #[inline(always)]
+    pub(super) fn skip(&mut self, mask: u64, q: f64) {
+        let [down, _] = R::Scalar::enclose_range(q, q);
+        let start = self.range[0].splat(down).max(self.range[0]);
+        self.range[0] = self.range[0].select(mask, start, self.range[0]);
     }
 
     /// The rays whose range meets the slab between two boundaries.
