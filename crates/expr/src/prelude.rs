@@ -87,7 +87,7 @@ impl Prelude {
                     Node::Parameter(i, _) if given.contains_key(i) => given[i].clone(),
                     node => prelude
                         .evaluate(graph, node)
-                        .and_then(|value| finite(value))
+                        .and_then(finite)
                         .map_err(|message| Fault { id, message })?,
                 };
                 prelude.values.insert(id, value);
@@ -134,7 +134,7 @@ impl Prelude {
         }))
     }
 
-    /// T_n of a constant.
+    /// `T_n` of a constant.
     fn chebyshev(&self, n: u32, x: &Value) -> Value {
         if let Some(r) = x.exact()
             && (r.numer().bits() + r.denom().bits()) * u64::from(n) < 4096
