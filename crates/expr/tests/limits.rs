@@ -191,8 +191,8 @@ fn what_is_large_when_written_out_is_refused() {
     for (name, text, reason) in [
         ("a sum", "sum(i, 1, 10^12, x)", "at most 100000 operands"),
         ("sums of sums", "sum(i, 1, 1000, sum(j, 1, 1000, x))", "at most 100000 operands"),
-        ("Chebyshev polynomials", "sum(i, 1, 30000, T(512, x + i))", "at most 100000 operands"),
-        ("their powers", "sum(i, 1, 30000, Tpow(512, x + i))", "at most 100000 operands"),
+        ("Chebyshev polynomials", "sum(i, 1, 2000, T(512, x + i))", "at most 100000 operands"),
+        ("their powers", "sum(i, 1, 2000, Tpow(512, x + i))", "at most 100000 operands"),
         ("a huge number", "x + 10^1000^1000", "no finite value"),
         ("a power of powers", "x^((2^1000)^1000)", "beyond the range of doubles"),
         ("a large root", "x + a; a = root:(u + 1)^1000*(u + 2)^1000", "too large a polynomial"),
