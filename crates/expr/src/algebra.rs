@@ -289,7 +289,7 @@ impl Graph {
         }
     }
 
-    /// The Chebyshev polynomial T_n(a).
+    /// The Chebyshev polynomial `T_n(a)`.
     pub(crate) fn chebyshev(&mut self, form: Form, n: u32, a: Id) -> Id {
         match n {
             0 if self.is_total(a) => self.constant(integer(1)),

@@ -54,7 +54,7 @@ impl Display for Form {
     }
 }
 
-/// Coefficients of T_n, from the constant upward.
+/// Coefficients of `T_n`, from the constant upward.
 fn coefficients(n: u32) -> Vec<BigInt> {
     let mut coefficients = vec![BigInt::ZERO; n as usize + 1];
     let mut c = BigInt::from(1) << n.saturating_sub(1);
@@ -68,7 +68,7 @@ fn coefficients(n: u32) -> Vec<BigInt> {
     coefficients
 }
 
-/// The exact value of T_n at a rational.
+/// The exact value of `T_n` at a rational.
 pub(crate) fn evaluate(n: u32, x: &Rational) -> Rational {
     let (mut before, mut last) = (integer(1), x.clone());
     for _ in 0..n {
@@ -79,7 +79,7 @@ pub(crate) fn evaluate(n: u32, x: &Rational) -> Rational {
 }
 
 impl Graph {
-    /// T_n(x) by operations of numbers.
+    /// `T_n(x)` by operations of numbers.
     pub(crate) fn expand_chebyshev(&mut self, form: Form, n: u32, x: Id) -> Id {
         match form {
             Form::Recurrence => self.recurrence(n, x),

@@ -21,7 +21,7 @@ pub struct Parameter {
     /// Its name in the equation.
     pub name: String,
     /// Its default value: an exact constant expression such as `0.3`, `(1+sqrt(5))/2` or
-    /// `root:7*a^3+7*a+1` (the only real root of a polynomial).
+    /// `root:7*u^3+7*u+1` (the only real root of a polynomial).
     pub default: String,
 }
 

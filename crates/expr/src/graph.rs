@@ -40,7 +40,7 @@ pub(crate) enum Node {
     Unary(Unary, Id),
     /// f(a, b).
     Binary(Binary, Id, Id),
-    /// T_n(a), to be evaluated in the given form.
+    /// `T_n(a)`, to be evaluated in the given form.
     Chebyshev(Form, u32, Id),
 }
 

@@ -24,7 +24,7 @@ use crate::rational::{self, MAX_EXPONENT, integer};
 pub(crate) const MAX_TEXT: usize = 1 << 20;
 /// The most parentheses, signs, powers and definitions around an operand.
 const MAX_DEPTH: usize = 200;
-/// The most operands, those of sums counted once a term; T_n counts as n.
+/// The most operands, those of sums counted once a term; `T_n` counts as n.
 const MAX_OPERANDS: usize = 100_000;
 
 /// Where an expression stands, which decides what its names can mean.

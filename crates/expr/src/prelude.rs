@@ -134,7 +134,7 @@ impl Prelude {
         }))
     }
 
-    /// T_n of a constant.
+    /// `T_n` of a constant.
     fn chebyshev(&self, n: u32, x: &Value) -> Value {
         if let Some(r) = x.exact()
             && (r.numer().bits() + r.denom().bits()) * u64::from(n) < 4096

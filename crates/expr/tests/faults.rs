@@ -208,6 +208,7 @@ fn constants_sums_and_tables() {
             Some("definitions are separated by `;`, as in `a = 1; b = 2`"),
         ),
         ("x; a = «b»", "unknown name `b`", None),
+        ("sum(k, 1, 2, a*x); a = «k» + 1", "unknown name `k`", None),
     ] {
         check(marked, message, help);
     }
