@@ -31,17 +31,18 @@ impl CameraText {
             at + distance * away.normalize()
         });
         let camera = Camera { eye, at, up: self.up.unwrap_or(standard.up), projection };
+        if !camera.eye.as_vec3().is_finite() || !camera.at.is_finite() {
+            return Err(Failure::usage(format!(
+                "the camera's eye {:?} is beyond single precision, in which rays start; give a nearer \
+                 one with --camera, or another --domain",
+                camera.eye.to_array()
+            )));
+        }
         if camera.frame().iter().any(|v| !v.is_finite()) {
             return Err(Failure::usage(format!(
                 "the camera {} sees nothing: eye and at must differ, and up must not point along the \
                  view",
                 text(&camera)
-            )));
-        }
-        if !camera.eye.as_vec3().is_finite() {
-            return Err(Failure::usage(format!(
-                "the camera's eye {:?} is beyond single precision, in which rays start",
-                camera.eye.to_array()
             )));
         }
         Ok(camera)

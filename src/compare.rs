@@ -1,12 +1,13 @@
 //! `zeroset compare`: methods on one surface and view, judged against the reference and timed.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Args;
 use zeroset::bench::{
     self, Comparison, Context, Machine, Options, Record, Registry, Stage, record,
 };
-use zeroset::raycast::{Method, Rays, Request, Scene, View};
+use zeroset::raycast::{Error, Method, Rays, Request, Scene, View};
 use zeroset::shade::sheet::{self, Tile};
 use zeroset::shade::{self, Picture, ViewKind};
 
@@ -20,8 +21,8 @@ use crate::{output, surface, table};
 const EXAMPLES: &str = "\
 Examples:
   zeroset compare barth-sextic
-  zeroset compare 'x^4+y^4+z^4=1' --methods amp,kmarch --precision 1e-6
-  zeroset compare steiner --set amp.step=0.01 --runs 20 --out out/steiner
+  zeroset compare 'x^4+y^4+z^4=1' --methods amp-sign,kmarch --precision 1e-6
+  zeroset compare steiner --set amp-sign.step=0.01 --runs 20 --out out/steiner
   zeroset compare klein --json > klein.json
 
 Files: SURFACE-METHOD.png, SURFACE-METHOD-error.png and SURFACE-METHOD.exr (the hits as numbers) for
@@ -35,10 +36,11 @@ method, with camera, knobs, threads, machine and revision.
 pub(crate) struct Compare {
     #[command(flatten)]
     scene: SceneOptions,
-    /// The methods, separated by commas, or all [default: all that support the surface]
+    /// The methods, separated by commas, or all [default: all that support the surface, but for those
+    /// that would need more than 10 s for a frame]
     #[arg(long, value_name = "A,B|all", value_delimiter = ',')]
     methods: Vec<String>,
-    /// Timed frames a method, after one to warm up
+    /// Timed frames a method, after one to warm up; fewer where they take more than 5 s together
     #[arg(long, value_name = "N", value_parser = options::runs, default_value = "5")]
     #[arg(allow_hyphen_values = true)]
     runs: usize,
@@ -62,10 +64,13 @@ pub(crate) struct Compare {
     out: PathBuf,
 }
 
+/// A method that would need longer for a frame is left out unless it is asked for by name.
+const SLOWEST_FRAME: Duration = Duration::from_secs(10);
+
 impl Compare {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = surface::scene(&self.scene)?;
+        let (surface, scene) = surface::scene(&self.scene)?;
         let view = self.camera.view(&scene.domain, self.size)?;
         let mut methods = self.select(&scene)?;
         self.knobs.set(&mut methods, &scene)?;
@@ -81,6 +86,8 @@ impl Compare {
         let options = Options {
             request: if normals { Request::FirstWithNormal } else { Request::First },
             runs: self.runs,
+            // Methods that were asked for by name run however long they take.
+            frame: self.is_default_selection().then_some(SLOWEST_FRAME),
             ..Options::default()
         };
         let bar = Bar::new();
@@ -92,7 +99,7 @@ impl Compare {
         drop(bar);
 
         let context = Context {
-            equation: surface::equation(&self.scene)?,
+            equation: surface.equation,
             precision: Some(self.knobs.precision(&scene)),
             revision: env!("ZEROSET_REVISION").into(),
         };
@@ -109,13 +116,13 @@ impl Compare {
             output::print(b"\n")?;
         } else {
             let heading = format!(
-                "{}, {}x{} pixels, precision {}, {} of {} with {} threads",
+                "{}, {}x{} pixels, precision {:?}; {}, {}, {} threads",
                 scene.id,
                 view.width,
                 view.height,
-                short(self.knobs.precision(&scene)),
-                machine.isa,
+                self.knobs.precision(&scene),
                 machine.cpu,
+                machine.isa,
                 machine.threads
             );
             let tables = table::tables(&comparison, rays.len());
@@ -126,10 +133,15 @@ impl Compare {
         verdict(&comparison)
     }
 
+    /// Were no methods asked for by name?
+    fn is_default_selection(&self) -> bool {
+        self.methods.is_empty() || self.methods == ["all"]
+    }
+
     /// The methods asked for.
     fn select(&self, scene: &Scene) -> Result<Vec<Box<dyn Method>>, Failure> {
         let registry = Registry::standard();
-        if self.methods.is_empty() || self.methods == ["all"] {
+        if self.is_default_selection() {
             let methods: Vec<_> = registry
                 .iter()
                 .filter(|m| match m.supports(scene) {
@@ -235,8 +247,14 @@ fn verdict(comparison: &Comparison) -> Result<(), Failure> {
     if comparison.interrupted {
         return Err(Failure::Interrupted);
     }
-    let failed: Vec<_> =
-        comparison.runs.iter().filter(|r| r.outcome.is_err()).map(|r| r.method).collect();
+    // A method that is left out because it is slow has not failed: the table says so.
+    let has_failed = |error: &Error| !matches!(error, Error::TooSlow(_));
+    let failed: Vec<_> = comparison
+        .runs
+        .iter()
+        .filter(|run| run.outcome.as_ref().is_err_and(has_failed))
+        .map(|run| run.method)
+        .collect();
     if failed.is_empty() {
         Ok(())
     } else {

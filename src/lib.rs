@@ -9,8 +9,7 @@
 //! ```
 //! use zeroset::expr::Function;
 //!
-//! let torus = Function::parse("(x^2 + y^2 + z^2 + 1 - r^2)^2 = 4 (x^2 + y^2); r = 0.5")?;
-//! assert_eq!(torus.degree(), Some(4));
+//! let torus = Function::parse("(x^2 + y^2 + z^2 + 1 - r^2)^2 = 4*(x^2 + y^2); r = 0.5")?;
 //! assert_eq!(torus.parameters()[0].name, "r");
 //!
 //! // Errors say where, and what was expected.
@@ -33,6 +32,7 @@
 //!
 //! let sphere = Function::parse("x^2 + y^2 + z^2 = 1")?;
 //! let tape = sphere.tape(&Parameters::default(), 128)?;
+//! assert_eq!(tape.degree(), Some(2));
 //!
 //! // A value.
 //! let value = tape.evaluator(&Plain(0.0)).evaluate([2.0, 0.0, 0.0].map(Plain));
@@ -94,9 +94,15 @@
 //! # 4. Surfaces have names
 //!
 //! ```
-//! use zeroset::raycast::catalogue::Catalogue;
+//! use zeroset::raycast::catalogue::{self, Catalogue};
 //!
-//! let scene = Catalogue::standard().resolve("barth-sextic")?;
+//! let barth = Catalogue::builtin().get("barth-sextic").unwrap();
+//! assert_eq!(barth.degree, Some(6));
+//! assert!(barth.papers.iter().any(|paper| paper.starts_with("knoll2007")));
+//!
+//! // An id, a file or an equation, as on the command line; the domain is found from the function.
+//! let scene = catalogue::resolve("x^2 + y^2 + z^2 = 9", None)?.scene()?;
+//! assert!(scene.domain.min.x < -3.0 && 3.0 < scene.domain.max.x);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -106,10 +112,10 @@
 //! use zeroset::bench::{self, Options, Verdict};
 //! use zeroset::raycast::{Camera, Progress, Rays, View, catalogue::Catalogue};
 //!
-//! let scene = Catalogue::standard().resolve("torus")?;
+//! let scene = Catalogue::builtin().get("torus").unwrap().scene()?;
 //! let view = View::new(Camera::facing(&scene.domain), 32, 32);
 //! let options = Options { runs: 1, ..Options::default() };
-//! let methods = [bench::method("amp")?, bench::method("kmarch")?];
+//! let methods = [bench::method("amp-sign")?, bench::method("kmarch")?];
 //! let comparison = bench::compare(
 //!     &scene,
 //!     Rays::View(&view),
@@ -126,7 +132,7 @@
 //! ```
 //!
 //! The reference says of each ray whether its first root crosses the surface, touches it, or does
-//! not exist; every answer, and every claim of its certificate, is held against that. See [`bench`],
+//! not exist; every answer, and every claim of its certificate, is held against that. See [`mod@bench`],
 //! and [`shade`] for pictures and error maps.
 //!
 //! # 6. A method of your own

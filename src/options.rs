@@ -12,6 +12,8 @@ use crate::numbers;
 
 /// The greatest width and height of an image.
 const LONGEST_SIDE: usize = 16384;
+/// The most pixels of an image: their answers take about 4 GB.
+const MOST_PIXELS: usize = 1 << 26;
 
 /// A surface, the values of its parameters, and where its roots count.
 #[derive(Args, Clone, Debug)]
@@ -123,7 +125,11 @@ pub(crate) fn size(text: &str) -> Result<Size, String> {
     };
     let (width, height) =
         text.split_once(['x', 'X']).ok_or("give WIDTHxHEIGHT, such as 512x512")?;
-    Ok(Size { width: side(width)?, height: side(height)? })
+    let (width, height) = (side(width)?, side(height)?);
+    if width * height > MOST_PIXELS {
+        return Err(format!("{} pixels are more than {MOST_PIXELS}", width * height));
+    }
+    Ok(Size { width, height })
 }
 
 /// Reads `x0,y0,z0,x1,y1,z1`.
@@ -190,9 +196,20 @@ mod tests {
     #[test]
     fn sizes_have_limits() {
         assert_eq!(size("512x256"), Ok(Size { width: 512, height: 256 }));
-        assert_eq!(size("16384x16384"), Ok(Size { width: 16384, height: 16384 }));
-        for bad in ["", "512", "0x0", "0x1", "1x0", "100000x100000", "16385x1", "-1x4", "ax4", "4x"]
-        {
+        assert_eq!(size("16384x4096"), Ok(Size { width: 16384, height: 4096 }));
+        for bad in [
+            "16384x16384",
+            "",
+            "512",
+            "0x0",
+            "0x1",
+            "1x0",
+            "100000x100000",
+            "16385x1",
+            "-1x4",
+            "ax4",
+            "4x",
+        ] {
             assert!(size(bad).is_err(), "{bad}");
         }
     }

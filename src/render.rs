@@ -21,7 +21,7 @@ Examples:
   zeroset render barth-sextic
   zeroset render klein --view certificate --size 1024x1024
   zeroset render '-x^2-y^2-z^2+1' --camera eye=0,-4,0,fov=30 --out sphere.png
-  zeroset render torus --method amp --view error --out error.png";
+  zeroset render torus --method amp-sign --view error --out error.png";
 
 /// Draws a surface by one method.
 #[derive(Args, Clone, Debug)]
@@ -53,7 +53,7 @@ pub(crate) struct Render {
 impl Render {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = surface::scene(&self.scene)?;
+        let (_, scene) = surface::scene(&self.scene)?;
         let view = self.camera.view(&scene.domain, self.size)?;
         let mut methods = [bench::method(&self.method).map_err(Failure::usage)?];
         self.methods.set(&mut methods, &scene)?;
@@ -90,6 +90,11 @@ impl Render {
             work(&report, hits.len()),
             file.display().to_string(),
         ];
+        if !hits.certificate.iter().any(|c| c.is_hit()) {
+            eprintln!(
+                "zeroset: nothing was hit: is the surface in the domain, and the domain in view? See --domain and --camera"
+            );
+        }
         output::print(format!("{}\n", facts.join("\n")).as_bytes())
     }
 

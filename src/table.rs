@@ -42,7 +42,7 @@ pub(crate) fn tables(comparison: &Comparison, rays: usize) -> String {
     }
     match (&comparison.truths, &comparison.no_truth) {
         (Some(truths), _) if !outcomes.is_empty() => {
-            parts.push(format!("{}\n{}", sampling(truths, rays), judged(&outcomes)));
+            parts.push(format!("{}\n\n{}", sampling(truths, rays), judged(&outcomes)));
         }
         (None, Some(why)) => parts.push(format!("Not judged: {why}")),
         _ => {}
@@ -143,7 +143,7 @@ fn judged(outcomes: &Rows<'_>) -> String {
     for (run, outcome) in outcomes {
         let Some(judgement) = &outcome.judgement else { continue };
         let tally = &judgement.tally;
-        let distance = |dt: Option<f64>| dt.map_or("-".into(), |dt| format!("{dt:.2e}"));
+        let distance = |dt: Option<f64>| dt.map_or("-".into(), short);
         table.add_row([
             run.method.to_owned(),
             with_part(
@@ -158,7 +158,10 @@ fn judged(outcomes: &Rows<'_>) -> String {
             distance(tally.worst_dt),
         ]);
     }
-    table.to_string()
+    format!(
+        "{table}\n\nIn brackets: misses of roots that only touch, hits without a root in any \
+         neighbouring pixel"
+    )
 }
 
 /// A count, and in brackets a part of it.

@@ -51,7 +51,7 @@ pub(crate) struct Trace {
 impl Trace {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = surface::scene(&self.scene)?;
+        let (_, scene) = surface::scene(&self.scene)?;
         let mut methods = [bench::method(&self.method).map_err(Failure::usage)?];
         self.methods.set(&mut methods, &scene)?;
         let rays = self.read()?;

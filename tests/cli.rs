@@ -100,7 +100,7 @@ fn bad_input_is_refused_with_place_and_remedy() {
         (render(&["--set", "kmarch.depth=deep"]), "depth"),
         (render(&["--set", "kmrch.depth=1"]), "kmarch"),
         (render(&["--set", "depth=1"]), "METHOD.KNOB=VALUE"),
-        (render(&["--set", "amp.step=0.1"]), "kmarch"),
+        (render(&["--set", "amp-sign.step=0.1"]), "kmarch"),
         (render(&["--precision", "0"]), "above 0"),
         (render(&["--precision", "-1"]), "above 0"),
         (render(&["--precision", "NaN"]), "finite"),
@@ -215,7 +215,7 @@ fn rays_go_in_and_answers_come_out_in_order() {
     let dir = folder();
     // Extra columns and another order are fine; the direction is counted as given.
     let rays = "note,dx,dy,dz,ox,oy,oz\nhit,0,0,2,0,0,-3\nmiss,1,0,0,0,0,-3\ninside,0,0,-1,0,0,0\n";
-    for method in ["amp", "kmarch", "reference"] {
+    for method in ["amp-sign", "kmarch", "reference"] {
         let arguments = [
             "trace",
             SPHERE,
@@ -239,7 +239,7 @@ fn rays_go_in_and_answers_come_out_in_order() {
             assert!(a.t_lo <= t + 1e-5 && t - 1e-5 <= a.t_hi, "{method}: {a:?}");
             assert!((a.nz - nz).abs() < 1e-4 && a.nx.abs() + a.ny.abs() < 1e-4, "{method}: {a:?}");
             assert!(a.points + a.gradients + a.intervals > 0, "{method}: {a:?}");
-            if method != "amp" {
+            if method != "amp-sign" {
                 assert_eq!(a.certificate, "proven-hit", "{method}: {a:?}");
                 assert!(a.t_lo <= t && t <= a.t_hi, "{method}: {a:?}");
             }
@@ -312,13 +312,14 @@ fn compare_prints_a_table_and_writes_pictures_and_records() {
     let dir = folder();
     let arguments = ["compare", "barth-sextic", "--size", "24x16", "--runs", "2", "--out", "o"];
     let printed = done(dir.path(), &arguments);
-    for word in ["amp", "kmarch", "frame ms", "Mrays/s", "proven-hit", "false misses", "|dt|"] {
+    for word in ["amp-sign", "kmarch", "frame ms", "Mrays/s", "proven-hit", "false misses", "|dt|"]
+    {
         assert!(printed.contains(word), "{word} in {printed}");
     }
     assert!(printed.lines().all(|l| l.chars().count() <= 120), "{printed}");
     let out = dir.path().join("o");
     let names = files(&out);
-    for method in ["amp", "kmarch"] {
+    for method in ["amp-sign", "kmarch"] {
         for suffix in [".png", "-error.png", ".exr"] {
             assert!(names.contains(&format!("barth-sextic-{method}{suffix}")), "{names:?}");
         }
@@ -337,7 +338,7 @@ fn compare_prints_a_table_and_writes_pictures_and_records() {
     assert_eq!(kmarch.judged, 24 * 16);
 
     // A second run adds its rows, and prints them.
-    let json = done(dir.path(), &[&arguments[..], &["--json", "--methods", "amp"]].concat());
+    let json = done(dir.path(), &[&arguments[..], &["--json", "--methods", "amp-sign"]].concat());
     let printed: Vec<zeroset::bench::Record> = serde_json::from_str(&json).unwrap();
     let both = records(&out.join("records.csv"));
     assert_eq!((printed.len(), both.len()), (1, first.len() + 1));
@@ -381,7 +382,7 @@ fn what_there_is_is_listed_and_shown() {
     let surfaces = done(dir.path(), &["list", "surfaces"]);
     assert!(surfaces.contains("barth-sextic") && surfaces.contains("klein"), "{surfaces}");
     let methods = done(dir.path(), &["list", "methods"]);
-    for word in ["amp", "kmarch", "reference", "depth"] {
+    for word in ["amp-sign", "kmarch", "reference", "depth"] {
         assert!(methods.contains(word), "{word} in {methods}");
     }
     let json: serde_json::Value =
@@ -421,7 +422,7 @@ fn an_interruption_keeps_what_is_finished_whole() {
     // How long the first method takes until it is timed depends on the machine.
     for wait in [2, 4, 8, 16, 32] {
         let dir = folder();
-        let arguments = ["compare", SPHERE, "--methods", "amp,kmarch", "--size", "16x16"];
+        let arguments = ["compare", SPHERE, "--methods", "amp-sign,kmarch", "--size", "16x16"];
         let child = start(dir.path(), &[&arguments[..], &["--runs", "1000000"]].concat());
         std::thread::sleep(Duration::from_secs(wait));
         let pid = child.id().to_string();
@@ -436,11 +437,34 @@ fn an_interruption_keeps_what_is_finished_whole() {
             continue;
         }
         let records = records(&out.join("records.csv"));
-        assert_eq!(records.iter().map(|r| r.method.as_str()).collect::<Vec<_>>(), ["amp"]);
+        assert_eq!(records.iter().map(|r| r.method.as_str()).collect::<Vec<_>>(), ["amp-sign"]);
         assert_eq!(records[0].outcome, "ok");
-        assert!(outcome.stdout.contains("amp"), "{}", outcome.stdout);
-        assert!(files(&out).iter().any(|f| f.ends_with("-amp.png")), "{:?}", files(&out));
+        assert!(outcome.stdout.contains("amp-sign"), "{}", outcome.stdout);
+        assert!(files(&out).iter().any(|f| f.ends_with("-amp-sign.png")), "{:?}", files(&out));
         return;
     }
     panic!("nothing was finished in 32 s");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_picture_is_not_written() {
+    let dir = folder();
+    let arguments = ["render", "barth-decic", "--size", "4096x2048", "--precision", "1e-9"];
+    let child = start(dir.path(), &arguments);
+    std::thread::sleep(Duration::from_secs(2));
+    let pid = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+    let outcome = end(child);
+    assert_eq!((outcome.status, outcome.stdout.as_str()), (130, ""), "{}", outcome.stderr);
+    assert_eq!(files(&dir.path().join("out")), [""; 0]);
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_is_no_failure() {
+    let dir = folder();
+    let mut child = start(dir.path(), &["list", "--json"]);
+    drop(child.stdout.take());
+    let outcome = end(child);
+    assert_eq!((outcome.status, outcome.stderr.as_str()), (0, ""));
 }

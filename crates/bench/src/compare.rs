@@ -3,7 +3,8 @@
 use std::time::{Duration, Instant};
 
 use zeroset_raycast::{
-    Certificate, Error, Hits, Knob, Method, Progress, Rays, Request, Scene, Work,
+    Certificate, Error, Hits, Intersector, Knob, Method, Progress, RayBatch, Rays, Request, Scene,
+    Work,
 };
 
 use crate::{Judgement, Oracle, Sample, Tolerance, Truth, Truths, judge, truth};
@@ -13,8 +14,12 @@ use crate::{Judgement, Oracle, Sample, Tolerance, Truth, Truths, judge, truth};
 pub struct Options {
     /// What is asked of the methods; answers to [`Request::Any`] are not judged.
     pub request: Request,
-    /// Timed frames a method.
+    /// Timed frames a method, at most.
     pub runs: usize,
+    /// How long the timed frames of a method may take together; one is always timed.
+    pub timing: Duration,
+    /// A method is left out if a frame would take longer, by the rays of a sample.
+    pub frame: Option<Duration>,
     /// How long the reference may take; beyond, an even subsample is judged. Zero judges nothing.
     pub judging: Duration,
     /// How far from the first root a hit may lie; by default a pixel's footprint for views, and
@@ -24,7 +29,14 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { request: Request::First, runs: 5, judging: Duration::from_secs(8), tolerance: None }
+        Self {
+            request: Request::First,
+            runs: 5,
+            timing: Duration::from_secs(5),
+            frame: None,
+            judging: Duration::from_secs(8),
+            tolerance: None,
+        }
     }
 }
 
@@ -255,13 +267,26 @@ fn run(
     let prepare = start.elapsed();
 
     watch(Stage::Answer(id), 0.0);
+    if let Some(limit) = options.frame {
+        let expected = expected_time(intersector.as_ref(), rays, options, progress)?;
+        if expected > limit {
+            return Err(Error::TooSlow(format!(
+                "left out: a frame would take about {} s; name the method to run it all the same",
+                expected.as_secs()
+            )));
+        }
+    }
     let mut hits = Hits::new(options.request, rays.len());
     let report = intersector.intersect(rays, &mut hits, progress)?;
     let judgement = judge(&hits);
 
     let mut frames = Vec::with_capacity(options.runs);
     let mut again = Hits::new(options.request, rays.len());
+    let timing = Instant::now();
     for i in 0..options.runs {
+        if i > 0 && timing.elapsed() > options.timing {
+            break;
+        }
         watch(Stage::Time(id), i as f64 / options.runs as f64);
         let start = Instant::now();
         match intersector.intersect(rays, &mut again, progress) {
@@ -276,4 +301,28 @@ fn run(
         Certificate::ALL.map(|c| hits.certificate.iter().filter(|given| **given == c).count());
     let times = Times::of(&mut frames);
     Ok(Outcome { hits, work: report.work, certificates, judgement, prepare, times })
+}
+
+/// How long a frame will take, from an even sample of its rays; nothing for methods that need a view.
+fn expected_time(
+    intersector: &dyn Intersector,
+    rays: Rays<'_>,
+    options: &Options,
+    progress: &Progress,
+) -> Result<Duration, Error> {
+    /// Rays in the sample, about.
+    const PROBE: usize = 256;
+    let step = rays.len().div_ceil(PROBE).max(1);
+    // Not aligned with the rows of a view.
+    let sample: Vec<_> = (0..rays.len()).step_by(step | 1).map(|i| rays.get(i)).collect();
+    let mut hits = Hits::new(options.request, sample.len());
+    let batch = RayBatch { rays: sample, range: rays.range() };
+    let start = Instant::now();
+    match intersector.intersect(Rays::Batch(&batch), &mut hits, progress) {
+        Ok(_) if !batch.rays.is_empty() => {
+            Ok(start.elapsed().mul_f64(rays.len() as f64 / batch.rays.len() as f64))
+        }
+        Ok(_) | Err(Error::Unsupported(_)) => Ok(Duration::ZERO),
+        Err(error) => Err(error),
+    }
 }

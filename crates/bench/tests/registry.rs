@@ -55,6 +55,43 @@ fn on_a_surface_with_a_pole() {
 }
 
 #[test]
+fn on_a_surface_with_many_nodes() {
+    let equation = "4*(p^2*x^2-y^2)*(p^2*y^2-z^2)*(p^2*z^2-x^2) \
+                    - (1+2*p)*(x^2+y^2+z^2-1)^2; p = (1+sqrt(5))/2";
+    check_all(&scene("barth-sextic", equation, 2.0, Some(2.0)));
+}
+
+#[test]
+fn on_a_surface_with_jumps() {
+    check_all(&scene("steps", "floor(2*x + 0.3) + y + abs(z) - 0.7", 2.0, None));
+}
+
+#[test]
+fn on_functions_that_are_not_defined_everywhere() {
+    check_all(&scene("root", "sqrt(x - y) + z^2 - 0.5", 1.5, None));
+    check_all(&scene("log", "log(x*y + 0.2) + z", 1.5, None));
+}
+
+#[test]
+fn on_waves() {
+    check_all(&scene("waves", "sin(3*x) + cos(4*y) + sin(2*z*x) - 0.3", 2.0, None));
+}
+
+#[test]
+fn far_from_the_origin() {
+    let function = Function::parse("(x-1000)^2 + (y+2000)^2 + (z-3000)^2 - 1").unwrap();
+    let centre = DVec3::new(1000.0, -2000.0, 3000.0);
+    let domain = Domain::new(centre - 1.5, centre + 1.5).unwrap();
+    check_all(&Scene::new("far", function, domain));
+}
+
+#[test]
+fn on_tiny_and_huge_surfaces() {
+    check_all(&scene("tiny", "x^2 + y^2 + z^2 - 1e-12", 1.5e-6, None));
+    check_all(&scene("huge", "x^2 + y^2 + z^2 - 1e12", 1.5e6, None));
+}
+
+#[test]
 fn on_nothing() {
     check_all(&scene("empty", "x^2 + y^2 + z^2 + 1", 1.0, None));
 }

@@ -2,8 +2,8 @@
 //!
 //! | method | source | proves |
 //! |---|---|---|
-//! | [`Amp`] | [singh2010] Algorithm 1 with the sign test | nothing |
-//! | [`Kmarch`] | [knoll2007] Appendix A | first hits, roots, misses |
+//! | [`Amp`] | \[singh2010\] Algorithm 1 with the sign test | nothing |
+//! | [`Kmarch`] | \[knoll2007\] Appendix A | first hits, roots, misses |
 //! | [`Reference`] | this project: slow, judged first | all it decides |
 
 mod amp;

@@ -53,7 +53,7 @@ fn answer(tile: Tile<'_>, run: &impl Fn(&[Ray]) -> Vec<Hit>) -> (Vec<usize>, Vec
                         invalid.push(index);
                     }
                 },
-            )
+            );
         },
     );
     let mut hits = run(&valid);

@@ -76,7 +76,7 @@ fn brackets_hold_the_first_root_of_a_sphere() {
             }
         }
     }
-    assert!(found > 1500, "{found} hits");
+    assert!(found > 500, "{found} hits");
 }
 
 #[test]
@@ -149,7 +149,8 @@ fn marching_points_are_counted() {
 
 #[test]
 fn smaller_steps_find_more_and_cost_more() {
-    let scene = scene("x^2+y^2+z^2-0.04", 1.0);
+    // A shell 0.03 thick.
+    let scene = scene("(x^2+y^2+z^2-0.5)*(x^2+y^2+z^2-0.55)", 1.0);
     let view = View::new(Camera::facing(&scene.domain), 64, 64);
     let run = |step| {
         let method = Amp { step: Some(step), ..Amp::default() };

@@ -271,7 +271,7 @@ impl Graph {
         }
         if let Node::Neg(a) = *self.node(a) {
             let power = self.power(a, b);
-            return if !n.bit(0) { power } else { self.neg(power) };
+            return if n.bit(0) { self.neg(power) } else { power };
         }
         self.fold(Node::Power(a, b))
     }
@@ -289,7 +289,7 @@ impl Graph {
         }
     }
 
-    /// The Chebyshev polynomial T_n(a).
+    /// The Chebyshev polynomial `T_n(a)`.
     pub(crate) fn chebyshev(&mut self, form: Form, n: u32, a: Id) -> Id {
         match n {
             0 if self.is_total(a) => self.constant(integer(1)),

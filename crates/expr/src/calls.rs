@@ -78,18 +78,18 @@ impl Parser<'_> {
         }
     }
 
-    /// The degree of a Chebyshev polynomial.
-    fn degree(&self, form: Form, n: Id, span: Range<usize>) -> Result<u32, ParseError> {
+    /// The degree of a Chebyshev polynomial, which is so many operands when written out.
+    fn degree(&mut self, form: Form, n: Id, span: Range<usize>) -> Result<u32, ParseError> {
         let degree = self.integer(n).and_then(|n| u32::try_from(n).ok());
-        degree.filter(|n| *n <= MAX_DEGREE).ok_or_else(|| {
+        let Some(degree) = degree.filter(|n| *n <= MAX_DEGREE) else {
             let found = self.shown(span.clone());
-            self.error(
-                span,
-                format!(
-                    "`{form}(n, x)` wants a literal integer n from 0 to {MAX_DEGREE}, not `{found}`"
-                ),
-            )
-        })
+            let message = format!(
+                "`{form}(n, x)` wants a literal integer n from 0 to {MAX_DEGREE}, not `{found}`"
+            );
+            return Err(self.error(span, message));
+        };
+        self.count_operands(degree, span)?;
+        Ok(degree)
     }
 
     /// Reads `i, a, b, term)` and adds the terms up.

@@ -54,21 +54,21 @@ impl Display for Form {
     }
 }
 
-/// Coefficients of T_n, from the constant upward.
+/// Coefficients of `T_n`, from the constant upward.
 fn coefficients(n: u32) -> Vec<BigInt> {
-    let (mut before, mut last) = (vec![BigInt::from(1)], vec![BigInt::ZERO, BigInt::from(1)]);
-    for _ in 0..n {
-        let mut next = vec![BigInt::ZERO];
-        next.extend(last.iter().map(|c| c * 2));
-        for (c, b) in next.iter_mut().zip(&before) {
-            *c -= b;
+    let mut coefficients = vec![BigInt::ZERO; n as usize + 1];
+    let mut c = BigInt::from(1) << n.saturating_sub(1);
+    // (1 - x^2) T'' - x T' + n^2 T = 0 relates every other one.
+    for k in (0..=n).rev().step_by(2) {
+        coefficients[k as usize] = c.clone();
+        if k >= 2 {
+            c = -c * (k * (k - 1)) / (n * n - (k - 2) * (k - 2));
         }
-        before = std::mem::replace(&mut last, next);
     }
-    before
+    coefficients
 }
 
-/// The exact value of T_n at a rational.
+/// The exact value of `T_n` at a rational.
 pub(crate) fn evaluate(n: u32, x: &Rational) -> Rational {
     let (mut before, mut last) = (integer(1), x.clone());
     for _ in 0..n {
@@ -79,7 +79,7 @@ pub(crate) fn evaluate(n: u32, x: &Rational) -> Rational {
 }
 
 impl Graph {
-    /// T_n(x) by operations of numbers.
+    /// `T_n(x)` by operations of numbers.
     pub(crate) fn expand_chebyshev(&mut self, form: Form, n: u32, x: Id) -> Id {
         match form {
             Form::Recurrence => self.recurrence(n, x),

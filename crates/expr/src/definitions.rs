@@ -1,6 +1,6 @@
 //! What an equation defines after its `;`, and what is defined for it.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -130,7 +130,7 @@ pub(crate) struct Context {
     pub(crate) indices: Vec<(String, i64)>,
     /// Open parentheses, signs, powers and definitions.
     pub(crate) depth: usize,
-    /// Operands read so far; those of a sum count once a term.
+    /// Operands read so far, as if sums and Chebyshev polynomials were written out.
     pub(crate) operands: usize,
     /// Where each constant was first written.
     pub(crate) written: HashMap<Id, (Chunk, Range<usize>)>,
@@ -197,7 +197,7 @@ impl Context {
     pub(crate) fn split(&mut self, all: &Chunk) -> Result<Chunk, ParseError> {
         let mut parts = all.split(';').into_iter();
         let equation = parts.next().expect("there is a first part");
-        let mut named = Vec::new();
+        let mut named = HashSet::new();
         for part in parts.filter(|p| !p.range.is_empty()) {
             let start = part.range.start;
             let name = &part.tokens[start];
@@ -206,15 +206,15 @@ impl Context {
                     .error(part.span(), "expected a definition after `;`")
                     .help("definitions are written as `r = 1` or `t = [1, 2, 3]`"));
             }
-            named.push((part.text[name.span.clone()].to_string(), name.span.clone()));
+            let span = name.span.clone();
+            let name = &part.text[span.clone()];
             let value = part.part(start + 2..part.range.end);
             let definition = if value.is_symbol(start + 2, '[') {
                 Definition::Table(entries(&value)?)
             } else {
                 Definition::Parameter(Entry::new(value))
             };
-            let (name, span) = named.last().expect("just pushed");
-            if named.iter().filter(|(n, _)| n == name).count() == 1 {
+            if named.insert(name.to_string()) {
                 self.definitions.remove(name);
             }
             self.insert(name, definition, |m| part.error(span.clone(), m))?;

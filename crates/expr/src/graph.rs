@@ -40,7 +40,7 @@ pub(crate) enum Node {
     Unary(Unary, Id),
     /// f(a, b).
     Binary(Binary, Id, Id),
-    /// T_n(a), to be evaluated in the given form.
+    /// `T_n(a)`, to be evaluated in the given form.
     Chebyshev(Form, u32, Id),
 }
 
@@ -163,6 +163,15 @@ impl Graph {
         self.number(id).is_some_and(|r| r.denom().is_one() && *r.numer() == n.into())
     }
 
+    /// The default values of parameters.
+    pub(crate) fn default_values(&self) -> HashMap<u32, Id> {
+        let default = |node: &Node| match *node {
+            Node::Parameter(i, default) => Some((i, default)),
+            _ => None,
+        };
+        self.nodes.iter().filter_map(default).collect()
+    }
+
     /// The place of a node, old or new.
     pub(crate) fn intern(&mut self, node: Node) -> Id {
         let commuted = || node.commuted().and_then(|n| self.ids.get(&n));
@@ -241,7 +250,7 @@ impl Graph {
 }
 
 /// Is the function defined and finite for all real arguments?
-fn is_total(f: Unary) -> bool {
+pub(crate) fn is_total(f: Unary) -> bool {
     match f {
         Unary::Sqrt
         | Unary::Log

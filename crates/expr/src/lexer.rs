@@ -100,7 +100,7 @@ fn number(text: &str, start: usize) -> Result<(Kind, usize), ParseError> {
         None => Err(ParseError::new(
             text,
             start..start + end,
-            "this number is too long: at most about 1200 digits can be kept exactly",
+            "this number is too long: at most about 600 digits can be kept exactly",
         )),
     }
 }

@@ -21,7 +21,10 @@ mod lower;
 mod names;
 mod parser;
 mod plan;
+mod prelude;
+mod print;
 mod rational;
+mod root;
 pub mod tape;
 
 pub use error::{ParameterError, ParseError};

@@ -1,379 +1,178 @@
-//! From a graph to a tape.
-//!
-//! Nodes without x, y and z are evaluated once, as intervals of any precision: they become the tape's
-//! constants. The others become one instruction each (at most three), in an order that keeps few
-//! values alive, and registers are used again once their value has been read for the last time.
+//! Expressions to tapes.
 
-use std::collections::HashMap;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashMap};
 
-use zeroset_ia::{BigInterval, Binary, Constant, Number};
+use num_traits::One;
+use zeroset_ia::{Binary, Constant, Unary};
 
 use crate::graph::{Graph, Id, Node};
-use crate::rational;
-use crate::{Instruction, Op, ParameterError, Register, Tape};
+use crate::prelude::{self, Fault, Prelude};
+use crate::rational::integer;
+use crate::tape::{Instruction, Op, Register, Tape};
 
-/// Registers of x, y and z.
-const VARIABLES: u32 = 3;
-
-/// The graph with values for its parameters (those not given keep their defaults), and Chebyshev
-/// polynomials written out. Folding is done anew: an exponent may have become a number.
-pub(crate) fn specialise(source: &Graph, root: Id, values: &[Option<(Graph, Id)>]) -> (Graph, Id) {
-    let mut graph = Graph::new();
-    let values: Vec<_> = values
-        .iter()
-        .map(|value| value.as_ref().map(|(g, id)| graph.copy(g, *id, expand)))
-        .collect();
-    let root = graph.copy(source, root, |graph, node| match node {
-        Node::Parameter(i, default) => values[i as usize].unwrap_or(default),
-        node => expand(graph, node),
-    });
-    (graph, root)
-}
-
-fn expand(graph: &mut Graph, node: Node) -> Id {
-    match node {
-        Node::Chebyshev(form, n, x) => graph.expand_chebyshev(form, n, x),
-        node => graph.make(node),
-    }
-}
-
-/// The tape of a graph without parameters, its constants known to `precision` bits.
-pub(crate) fn lower(graph: &Graph, root: Id, precision: usize) -> Result<Tape, ParameterError> {
+/// The tape of the expression at `root`, which has no Chebyshev polynomials of variables.
+///
+/// # Errors
+/// If a constant is beyond double precision, or an integer exponent too large.
+pub(crate) fn lower(graph: &Graph, root: Id, prelude: &Prelude) -> Result<Tape, Fault> {
     let mut lowering = Lowering {
         graph,
-        precision: precision.max(128),
-        values: HashMap::new(),
-        places: HashMap::from([(0, 0), (1, 1), (2, 2)]),
-        loads: HashMap::new(),
-        instructions: Vec::new(),
+        prelude,
+        ops: Vec::new(),
+        numbered: HashMap::new(),
         constants: Vec::new(),
+        constant_places: HashMap::new(),
+        places: HashMap::new(),
     };
-    let needs = needs(graph, root);
-    let order = graph.postorder(root, |id| {
-        let mut operands = graph.node(id).operands().map(|a| a.filter(|&a| !graph.is_constant(a)));
-        // The operand that needs more registers first.
-        if let [Some(a), Some(b)] = operands
-            && needs[a as usize] < needs[b as usize]
-        {
-            operands.swap(0, 1);
-        }
-        operands
-    });
-    for id in order {
-        lowering.node(id)?;
+    for id in schedule(graph, root) {
+        let place = lowering.lower(id).map_err(|message| Fault { id, message })?;
+        lowering.places.insert(id, place);
     }
-    let output = lowering.place(root)?;
-    let (instructions, output) = allocate(&lowering.instructions, output);
+    let (instructions, output) = allocate(&lowering.ops, lowering.places[&root]);
     Ok(Tape::new(instructions, lowering.constants, output))
 }
 
-/// How many registers the value of each node needs, counted as if it were a tree.
-fn needs(graph: &Graph, root: Id) -> Vec<u32> {
-    let mut needs = vec![1_u32; graph.len()];
-    for id in graph.postorder(root, |id| graph.node(id).operands()) {
-        needs[id as usize] = match graph.node(id).operands() {
-            [Some(a), Some(b)] => {
-                let (a, b) = (needs[a as usize], needs[b as usize]);
-                if a == b { a + 1 } else { a.max(b) }
-            }
-            [Some(a), None] => needs[a as usize],
-            _ => 1,
+/// The nodes that depend on x, y, z, operands first, ordered so that few values live at once.
+///
+/// The operand that needs more registers comes first [Sethi and Ullman 1970].
+fn schedule(graph: &Graph, root: Id) -> Vec<Id> {
+    let varying = |id: Id| graph.node(id).operands().map(|a| a.filter(|a| !graph.is_constant(*a)));
+    let mut needs = vec![0_u32; graph.len()];
+    for id in graph.postorder(root, varying) {
+        needs[id as usize] = match varying(id).map(|a| a.map(|a| needs[a as usize])) {
+            [Some(a), Some(b)] if a == b => a + 1,
+            [a, b] => a.max(b).unwrap_or(0).max(1),
         };
     }
-    needs
+    graph.postorder(root, |id| match varying(id) {
+        [Some(a), Some(b)] if needs[b as usize] > needs[a as usize] => [Some(b), Some(a)],
+        operands => operands,
+    })
 }
 
+/// Operations in order: the k-th writes value 3 + k, and the first three values are x, y, z.
 struct Lowering<'a> {
     graph: &'a Graph,
-    precision: usize,
-    /// The values of constant nodes.
-    values: HashMap<Id, BigInterval>,
-    /// Where the value of each node is; places are registers that are written once.
-    places: HashMap<Id, Register>,
-    /// Where constants have been loaded.
-    loads: HashMap<Id, Register>,
-    instructions: Vec<Op>,
+    prelude: &'a Prelude,
+    ops: Vec<Op>,
+    numbered: HashMap<Op, u32>,
     constants: Vec<Constant>,
+    constant_places: HashMap<Id, u32>,
+    places: HashMap<Id, u32>,
 }
 
 impl Lowering<'_> {
-    /// Writes the instructions of a node whose operands are in place.
-    fn node(&mut self, id: Id) -> Result<(), ParameterError> {
-        let constant = |a: Id| self.graph.is_constant(a);
-        if constant(id) {
-            return Ok(());
-        }
-        let place = match *self.graph.node(id) {
-            Node::Variable(axis) => Register::from(axis),
-            Node::Add(a, b) if constant(b) => self.offset(a, b, |c| c)?,
-            Node::Add(a, b) if constant(a) => self.offset(b, a, |c| c)?,
-            Node::Sub(a, b) if constant(b) => self.offset(a, b, |c| -c)?,
-            Node::Sub(a, b) if constant(a) => {
-                let b = self.place(b)?;
-                let negated = self.push(Op::Neg(b));
-                let c = self.value(a)?;
-                let c = self.constant(c);
-                self.push(Op::Offset(negated, c))
+    /// The value of a node whose operands were lowered.
+    fn lower(&mut self, id: Id) -> Result<u32, String> {
+        let is_constant = |id| self.graph.is_constant(id);
+        let op = match *self.graph.node(id) {
+            Node::Variable(axis) => return Ok(axis.into()),
+            Node::Add(a, c) if is_constant(c) => Op::Offset(self.place(a)?, self.constant(c)?),
+            Node::Sub(c, a) if is_constant(c) => {
+                let negative = Op::Neg(self.place(a)?);
+                Op::Offset(self.push(negative), self.constant(c)?)
             }
-            Node::Mul(a, b) if constant(b) => self.scale(a, b)?,
-            Node::Mul(a, b) if constant(a) => self.scale(b, a)?,
-            Node::Div(a, b) if constant(b) && !self.value(b)?.contains_zero() => {
-                let one = BigInterval::from_f64(1.0, self.precision);
-                let c = one / self.value(b)?;
-                let c = self.constant(c);
-                let a = self.place(a)?;
-                self.push(Op::Scale(a, c))
-            }
-            Node::Power(a, b) => self.power(a, b)?,
-            Node::Add(a, b) => self.pair(a, b, Op::Add)?,
-            Node::Sub(a, b) => self.pair(a, b, Op::Sub)?,
-            Node::Mul(a, b) => self.pair(a, b, Op::Mul)?,
-            Node::Div(a, b) => self.pair(a, b, Op::Div)?,
-            Node::Binary(f, a, b) => self.pair(a, b, |a, b| Op::Binary(f, a, b))?,
-            Node::Neg(a) => {
-                let a = self.place(a)?;
-                self.push(Op::Neg(a))
-            }
-            Node::Unary(f, a) => {
-                let a = self.place(a)?;
-                self.push(Op::Unary(f, a))
-            }
-            Node::Number(_)
+            Node::Mul(c, a) if is_constant(c) => Op::Scale(self.place(a)?, self.constant(c)?),
+            Node::Add(a, b) => Op::Add(self.place(a)?, self.place(b)?),
+            Node::Sub(a, b) => Op::Sub(self.place(a)?, self.place(b)?),
+            Node::Mul(a, b) => Op::Mul(self.place(a)?, self.place(b)?),
+            Node::Div(a, b) => Op::Div(self.place(a)?, self.place(b)?),
+            Node::Neg(a) => Op::Neg(self.place(a)?),
+            Node::Power(a, b) if is_constant(b) => return self.power(a, b),
+            Node::Power(a, b) => Op::Binary(Binary::Pow, self.place(a)?, self.place(b)?),
+            Node::Unary(f, a) => Op::Unary(f, self.place(a)?),
+            Node::Binary(f, a, b) => Op::Binary(f, self.place(a)?, self.place(b)?),
+            ref node @ (Node::Number(_)
             | Node::Pi
-            | Node::Root(_)
             | Node::Parameter(..)
-            | Node::Chebyshev(..) => unreachable!("constants, and nodes that are expanded"),
+            | Node::Root(_)
+            | Node::Chebyshev(..)) => unreachable!("{node:?} is a constant or was expanded"),
         };
-        self.places.insert(id, place);
-        Ok(())
+        Ok(self.push(op))
     }
 
-    fn power(&mut self, a: Id, b: Id) -> Result<Register, ParameterError> {
-        let exponent = self.graph.number(b).and_then(rational::to_integer);
-        if let Some(n) = exponent.and_then(|n| i32::try_from(n).ok()) {
-            let a = self.place(a)?;
-            return Ok(self.push(if n == 2 { Op::Sqr(a) } else { Op::Powi(a, n) }));
-        }
-        if self.graph.is_constant(b) {
-            let c = self.value(b)?;
-            let c = self.constant(c);
-            let a = self.place(a)?;
-            return Ok(self.push(Op::Powc(a, c)));
-        }
-        self.pair(a, b, |a, b| Op::Binary(Binary::Pow, a, b))
-    }
-
-    fn pair(
-        &mut self,
-        a: Id,
-        b: Id,
-        op: impl FnOnce(Register, Register) -> Op,
-    ) -> Result<Register, ParameterError> {
-        let (a, b) = (self.place(a)?, self.place(b)?);
-        Ok(self.push(op(a, b)))
-    }
-
-    fn offset(
-        &mut self,
-        a: Id,
-        c: Id,
-        sign: impl FnOnce(BigInterval) -> BigInterval,
-    ) -> Result<Register, ParameterError> {
-        let c = sign(self.value(c)?);
-        let c = self.constant(c);
+    /// a^b with a constant exponent.
+    fn power(&mut self, a: Id, b: Id) -> Result<u32, String> {
+        let exponent = self.prelude.value(b);
+        let half = exponent.exact().is_some_and(|r| (r * integer(2)).is_one());
+        let integer = exponent.integer();
         let a = self.place(a)?;
-        Ok(self.push(Op::Offset(a, c)))
+        let op = match integer {
+            Some(1) => return Ok(a),
+            Some(2) => Op::Sqr(a),
+            Some(n) => Op::Powi(a, prelude::exponent(n)?),
+            None if half => Op::Unary(Unary::Sqrt, a),
+            None => Op::Powc(a, self.constant(b)?),
+        };
+        Ok(self.push(op))
     }
 
-    fn scale(&mut self, a: Id, c: Id) -> Result<Register, ParameterError> {
-        let c = self.value(c)?;
-        let c = self.constant(c);
-        let a = self.place(a)?;
-        Ok(self.push(Op::Scale(a, c)))
+    /// The value of an operand; a constant is loaded where it is needed.
+    fn place(&mut self, id: Id) -> Result<u32, String> {
+        if self.graph.is_constant(id) {
+            let load = Op::Load(self.constant(id)?);
+            return Ok(self.push(load));
+        }
+        Ok(self.places[&id])
     }
 
-    fn push(&mut self, op: Op) -> Register {
-        self.instructions.push(op);
-        VARIABLES + self.instructions.len() as Register - 1
-    }
-
-    fn constant(&mut self, value: BigInterval) -> u32 {
-        self.constants.push(Constant::new(value));
-        self.constants.len() as u32 - 1
-    }
-
-    /// Where the value of a node is; a constant is loaded.
-    fn place(&mut self, id: Id) -> Result<Register, ParameterError> {
-        if let Some(&place) = self.places.get(&id).or_else(|| self.loads.get(&id)) {
+    /// The place of a constant in the table.
+    fn constant(&mut self, id: Id) -> Result<u32, String> {
+        if let Some(&place) = self.constant_places.get(&id) {
             return Ok(place);
         }
-        let value = self.value(id)?;
-        let c = self.constant(value);
-        let place = self.push(Op::Load(c));
-        self.loads.insert(id, place);
+        let constant = self.prelude.value(id).constant(self.prelude.precision);
+        if constant.f64.iter().any(|end| !end.is_finite()) {
+            return Err("has a constant beyond the range of doubles".into());
+        }
+        let place = self.constants.len() as u32;
+        self.constants.push(constant);
+        self.constant_places.insert(id, place);
         Ok(place)
     }
 
-    /// The value of a constant node.
-    fn value(&mut self, id: Id) -> Result<BigInterval, ParameterError> {
-        let operands = |id| match self.graph.node(id) {
-            Node::Root(_) => [None, None],
-            node => node.operands(),
-        };
-        for id in self.graph.postorder(id, operands) {
-            if !self.values.contains_key(&id) {
-                let value = self.evaluate(id)?;
-                self.values.insert(id, value);
+    /// The value of an operation, old or new.
+    fn push(&mut self, op: Op) -> u32 {
+        *self.numbered.entry(op).or_insert_with(|| {
+            self.ops.push(op);
+            self.ops.len() as u32 + 2
+        })
+    }
+}
+
+/// Gives values registers, which are used again once their value was used for the last time.
+fn allocate(ops: &[Op], output: u32) -> (Vec<Instruction>, Register) {
+    let mut last_uses = vec![0; ops.len() + 3];
+    for (i, op) in ops.iter().enumerate() {
+        for value in op.operands().into_iter().flatten() {
+            last_uses[value as usize] = i;
+        }
+    }
+    last_uses[output as usize] = usize::MAX;
+    // The lowest free register first: a small file stays in the cache.
+    let mut free = BinaryHeap::new();
+    let used = |axis: u32| ops.iter().any(|op| op.operands().contains(&Some(axis)));
+    free.extend((0..3).filter(|&axis| axis != output && !used(axis)).map(Reverse));
+    let mut registers: Vec<Register> = vec![0, 1, 2];
+    let mut count = 3;
+    let mut instructions = Vec::with_capacity(ops.len());
+    for (i, op) in ops.iter().enumerate() {
+        let [a, b] = op.operands();
+        for value in [a, b.filter(|_| a != b)].into_iter().flatten() {
+            if last_uses[value as usize] == i {
+                free.push(Reverse(registers[value as usize]));
             }
         }
-        Ok(self.values[&id].clone())
-    }
-
-    fn evaluate(&self, id: Id) -> Result<BigInterval, ParameterError> {
-        let get = |a: Id| self.values[&a].clone();
-        let node = self.graph.node(id);
-        let value = match *node {
-            Node::Number(ref r) => rational::enclose(r, self.precision),
-            Node::Pi => BigInterval::pi(self.precision),
-            Node::Root(polynomial) => root(self.graph, polynomial, self.precision)?,
-            Node::Add(a, b) => get(a) + get(b),
-            Node::Sub(a, b) => get(a) - get(b),
-            Node::Mul(a, b) => get(a) * get(b),
-            Node::Div(a, b) => get(a) / get(b),
-            Node::Neg(a) => -get(a),
-            Node::Power(a, b) => match self.graph.number(b).and_then(rational::to_integer) {
-                Some(2) => get(a).sqr(),
-                Some(n) if i32::try_from(n).is_ok() => get(a).powi(n as i32),
-                _ => get(a).binary(Binary::Pow, get(b)),
+        let out = free.pop().map_or_else(
+            || {
+                count += 1;
+                count - 1
             },
-            Node::Unary(f, a) => get(a).unary(f),
-            Node::Binary(f, a, b) => get(a).binary(f, get(b)),
-            Node::Variable(_) | Node::Parameter(..) | Node::Chebyshev(..) => {
-                unreachable!("not a constant, or expanded")
-            }
-        };
-        if value.is_empty() || !value.is_bounded() {
-            let operands: Vec<f64> =
-                node.operands().into_iter().flatten().map(|a| get(a).nearest()).collect();
-            let message = format!(
-                "a constant of the equation is not finite: {} of {operands:?}",
-                operation(node)
-            );
-            return Err(ParameterError { message });
-        }
-        Ok(value)
+            |Reverse(r)| r,
+        );
+        instructions.push(Instruction { op: op.map(|value| registers[value as usize]), out });
+        registers.push(out);
     }
-}
-
-/// What a node does, for messages.
-fn operation(node: &Node) -> String {
-    match node {
-        Node::Div(..) => "a quotient".into(),
-        Node::Power(..) => "a power".into(),
-        Node::Unary(f, _) => f.to_string(),
-        Node::Binary(f, ..) => f.to_string(),
-        _ => "a value".into(),
-    }
-}
-
-/// The only real root of a polynomial in x, by bisection: its coefficients' size bounds it.
-fn root(graph: &Graph, polynomial: Id, precision: usize) -> Result<BigInterval, ParameterError> {
-    let tape = lower(graph, polynomial, precision + 64)?;
-    let working = precision + 64;
-    let zero = BigInterval::from_f64(0.0, working);
-    let mut evaluator = tape.evaluator(&zero);
-    let mut at = |x: &BigInterval| evaluator.evaluate([x.clone(), zero.clone(), zero.clone()]);
-    let mut sign = |x: &BigInterval| {
-        let value = at(x);
-        i32::from(value.is_positive()) - i32::from(value.is_negative())
-    };
-    let fail =
-        || ParameterError { message: "`root:` needs a polynomial with one real root".into() };
-    let mut bound = 1.0_f64;
-    let (mut lo, mut hi) = loop {
-        let [lo, hi] = [-bound, bound].map(|x| BigInterval::from_f64(x, working));
-        if sign(&lo) * sign(&hi) < 0 {
-            break (lo, hi);
-        }
-        bound *= 2.0;
-        if bound > 1e30 {
-            return Err(fail());
-        }
-    };
-    let below = sign(&lo);
-    let half = BigInterval::from_f64(0.5, working);
-    for _ in 0..working + 128 {
-        let middle = ((lo.clone() + hi.clone()) * half.clone()).lower();
-        match sign(&middle) {
-            0 => break,
-            s if s == below => lo = middle,
-            _ => hi = middle,
-        }
-    }
-    Ok(lo.hull(&hi).with_precision(precision))
-}
-
-/// Gives registers to places: one is free again after its value has been read for the last time.
-fn allocate(places: &[Op], output: Register) -> (Vec<Instruction>, Register) {
-    let mut last_read = HashMap::new();
-    for (i, op) in places.iter().enumerate() {
-        for place in reads(*op) {
-            last_read.insert(place, i);
-        }
-    }
-    last_read.insert(output, places.len());
-    let mut registers: HashMap<Register, Register> = (0..VARIABLES).map(|v| (v, v)).collect();
-    let mut free: Vec<Register> =
-        (0..VARIABLES).filter(|v| !last_read.contains_key(v)).rev().collect();
-    let mut count = VARIABLES;
-    let mut instructions = Vec::with_capacity(places.len());
-    for (i, op) in places.iter().enumerate() {
-        let renamed = rename(*op, |place| registers[&place]);
-        let mut dying: Vec<Register> =
-            reads(*op).into_iter().filter(|p| last_read[p] == i).map(|p| registers[&p]).collect();
-        dying.sort_unstable();
-        dying.dedup();
-        free.extend(dying.into_iter().rev());
-        let out = free.pop().unwrap_or_else(|| {
-            count += 1;
-            count - 1
-        });
-        registers.insert(VARIABLES + i as Register, out);
-        instructions.push(Instruction { op: renamed, out });
-    }
-    (instructions, registers[&output])
-}
-
-fn reads(op: Op) -> Vec<Register> {
-    match op {
-        Op::Load(_) => vec![],
-        Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) | Op::Binary(_, a, b) => {
-            vec![a, b]
-        }
-        Op::Neg(a)
-        | Op::Scale(a, _)
-        | Op::Offset(a, _)
-        | Op::Sqr(a)
-        | Op::Powi(a, _)
-        | Op::Powc(a, _)
-        | Op::Unary(_, a) => vec![a],
-    }
-}
-
-fn rename(op: Op, f: impl Fn(Register) -> Register) -> Op {
-    match op {
-        Op::Load(c) => Op::Load(c),
-        Op::Add(a, b) => Op::Add(f(a), f(b)),
-        Op::Sub(a, b) => Op::Sub(f(a), f(b)),
-        Op::Mul(a, b) => Op::Mul(f(a), f(b)),
-        Op::Div(a, b) => Op::Div(f(a), f(b)),
-        Op::Binary(g, a, b) => Op::Binary(g, f(a), f(b)),
-        Op::Neg(a) => Op::Neg(f(a)),
-        Op::Scale(a, c) => Op::Scale(f(a), c),
-        Op::Offset(a, c) => Op::Offset(f(a), c),
-        Op::Sqr(a) => Op::Sqr(f(a)),
-        Op::Powi(a, n) => Op::Powi(f(a), n),
-        Op::Powc(a, c) => Op::Powc(f(a), c),
-        Op::Unary(g, a) => Op::Unary(g, f(a)),
-    }
+    (instructions, registers[output as usize])
 }

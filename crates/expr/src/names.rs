@@ -91,7 +91,7 @@ pub(crate) fn synonym(name: &str) -> Option<&'static str> {
     SYNONYMS.iter().find(|(n, _)| *n == lower).map(|(_, known)| *known)
 }
 
-/// Up to three candidates that differ little from the name, nearest first, as a phrase.
+/// Up to three candidates that differ least, and little, from the name, as a phrase.
 pub(crate) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
     let lower = name.to_lowercase();
     let allowed = match name.len() {
@@ -105,6 +105,8 @@ pub(crate) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>)
         .collect();
     near.sort_unstable();
     near.dedup();
+    let least = near.first().map(|(distance, _)| *distance);
+    near.retain(|(distance, _)| Some(*distance) == least);
     near.truncate(3);
     let quoted: Vec<String> = near.iter().map(|(_, c)| format!("`{c}`")).collect();
     match &quoted[..] {
@@ -121,7 +123,8 @@ mod tests {
     #[test]
     fn near_names() {
         assert_eq!(nearest("sqtr", known()).as_deref(), Some("`sqr` or `sqrt`"));
-        assert_eq!(nearest("arctan2", known()).as_deref(), None);
+        assert_eq!(nearest("arctan2", known()).as_deref(), Some("`atan2`"));
+        assert_eq!(nearest("SIN", known()).as_deref(), Some("`sin`"));
         assert_eq!(nearest("u", known()), None);
         assert_eq!(nearest("elephant", known()), None);
     }

@@ -24,7 +24,7 @@ use crate::rational::{self, MAX_EXPONENT, integer};
 pub(crate) const MAX_TEXT: usize = 1 << 20;
 /// The most parentheses, signs, powers and definitions around an operand.
 const MAX_DEPTH: usize = 200;
-/// The most operands, those of sums counted once a term.
+/// The most operands, those of sums counted once a term; `T_n` counts as n.
 const MAX_OPERANDS: usize = 100_000;
 
 /// Where an expression stands, which decides what its names can mean.
@@ -97,7 +97,7 @@ impl<'a> Parser<'a> {
         if self.place == Place::Polynomial(None) {
             return Err(self
                 .error(self.chunk.span(), "this polynomial has no unknown")
-                .help("write for example `root:7*a^3 + 7*a + 1`"));
+                .help("write for example `root:7*u^3 + 7*u + 1`"));
         }
         let root = self.context.graph.intern(Node::Root(polynomial));
         let chunk = self.chunk.clone();
@@ -225,14 +225,8 @@ impl<'a> Parser<'a> {
     }
 
     fn operand(&mut self) -> Result<Id, ParseError> {
-        self.context.operands += 1;
-        if self.context.operands > MAX_OPERANDS {
-            let message = format!(
-                "the equation is too large: at most {MAX_OPERANDS} operands, sums written out"
-            );
-            return Err(self.error(self.here(), message));
-        }
         let span = self.here();
+        self.count_operands(1, span.clone())?;
         let Some(token) = self.peek() else { return Err(self.missing_operand()) };
         match &token.kind {
             Kind::Number(value) => {
@@ -250,6 +244,18 @@ impl<'a> Parser<'a> {
             Kind::Symbol('[') => self.literal_table(),
             Kind::Symbol(_) => Err(self.missing_operand()),
         }
+    }
+
+    /// Counts operands that the expression has when it is written out.
+    pub(crate) fn count_operands(&mut self, n: u32, span: Range<usize>) -> Result<(), ParseError> {
+        self.context.operands += n as usize;
+        if self.context.operands > MAX_OPERANDS {
+            let message = format!(
+                "the equation is too large: at most {MAX_OPERANDS} operands, sums and `T` written out"
+            );
+            return Err(self.error(span, message));
+        }
+        Ok(())
     }
 
     fn missing_operand(&self) -> ParseError {
@@ -299,7 +305,14 @@ impl<'a> Parser<'a> {
         }
         if self.context.is_defined(&name) {
             let chunk = &self.chunk;
-            return self.context.parameter(&name, |message| chunk.error(span, message));
+            let is_polynomial = matches!(self.place, Place::Polynomial(_));
+            return self.context.parameter(&name, |message| {
+                let error = chunk.error(span, message);
+                if is_polynomial {
+                    return error.help("give the polynomial's unknown a name of its own");
+                }
+                error
+            });
         }
         match &mut self.place {
             Place::Polynomial(unknown) if name != "pi" => match unknown {
@@ -339,13 +352,17 @@ impl<'a> Parser<'a> {
             let message = format!("`{name}` is no number: infinite and undefined values are not");
             return self.error(span, message);
         }
+        if name == "root" {
+            let message = "a root can only be the whole value of a parameter";
+            return self.error(span, message).help("write `...; a = root:7*u^3 + 7*u + 1`");
+        }
         let called = self.peek_symbol() == Some('(');
         let kind = if called { "function" } else { "name" };
         let error = self.error(span, format!("unknown {kind} `{name}`"));
         if let Some(known) = names::synonym(name) {
             return error.help(format!("write `{known}`"));
         }
-        match names::nearest(name, self.context.names().chain(names::known())) {
+        match names::nearest(name, names::known().chain(self.context.names())) {
             Some(near) => error.help(format!("did you mean {near}?")),
             None if called => error,
             None if self.place == Place::Equation => error.help(format!(

@@ -22,7 +22,7 @@ pub(crate) enum Task {
 impl Task {
     fn renamed(self, mut name: impl FnMut(Register) -> Register) -> Self {
         match self {
-            Self::One(op) => Self::One(op.renamed(name)),
+            Self::One(op) => Self::One(op.map(name)),
             Self::AddScaled(a, b, c) => Self::AddScaled(name(a), name(b), c),
             Self::SubScaled(a, b, c) => Self::SubScaled(name(a), name(b), c),
             Self::ScaledSub(a, c, b) => Self::ScaledSub(name(a), c, name(b)),
@@ -114,7 +114,7 @@ fn only_reader(instructions: &[Instruction], i: usize, output: Register) -> Opti
     let mut reader = None;
     for (j, Instruction { op, out }) in instructions.iter().enumerate().skip(i + 1) {
         let mut reads = 0;
-        op.renamed(|r| {
+        op.map(|r| {
             reads += usize::from(r == written);
             r
         });

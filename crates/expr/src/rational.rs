@@ -1,6 +1,6 @@
 //! Exact rational numbers: literals, arithmetic that folds, and their enclosures.
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use zeroset_ia::{BigInterval, Binary, Unary};
@@ -10,7 +10,7 @@ use crate::graph::Node;
 pub(crate) type Rational = BigRational;
 
 /// Numerators and denominators longer than this are not folded.
-const MAX_BITS: u64 = 4096;
+const MAX_BITS: u64 = 2048;
 
 /// The largest absolute value of an integer exponent.
 pub(crate) const MAX_EXPONENT: u32 = 1024;
@@ -46,9 +46,9 @@ pub(crate) fn decimal(text: &str) -> Option<Rational> {
 /// Text that reads as the number: an integer, a short decimal, or a quotient.
 pub(crate) fn text(r: &Rational) -> String {
     let (mut rest, mut twos, mut fives) = (r.denom().clone(), 0, 0);
-    for (factor, count) in [(2_u32, &mut twos), (5, &mut fives)] {
-        while *count <= 20 && Zero::is_zero(&(&rest % BigInt::from(factor))) {
-            rest /= BigInt::from(factor);
+    for (factor, count) in [(2_u8, &mut twos), (5, &mut fives)] {
+        while *count <= 20 && (&rest % BigInt::from(factor)).is_zero() {
+            rest /= factor;
             *count += 1;
         }
     }
@@ -108,7 +108,12 @@ pub(crate) fn evaluate(node: &Node, operands: [Option<&Rational>; 2]) -> Option<
 /// The tightest interval around the number, with a significand of so many bits.
 pub(crate) fn enclose(r: &Rational, precision: usize) -> BigInterval {
     let whole = |n: &BigInt| {
-        BigInterval::parse_decimal(&n.to_string(), precision).expect("digits are a decimal")
+        let exact = precision.max(n.bits() as usize);
+        let digit = |d: u32| BigInterval::from_f64(d.into(), exact);
+        let base = BigInterval::from_f64(4_294_967_296.0, exact);
+        let (sign, digits) = n.to_u32_digits();
+        let sum = digits.into_iter().rev().fold(digit(0), |sum, d| sum * base.clone() + digit(d));
+        (if sign == Sign::Minus { -sum } else { sum }).with_precision(precision)
     };
     if r.is_integer() { whole(r.numer()) } else { whole(r.numer()) / whole(r.denom()) }
 }

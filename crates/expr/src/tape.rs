@@ -2,8 +2,8 @@
 
 use zeroset_ia::{Binary, Constant, Number, Unary};
 
-use crate::Evaluator;
 use crate::plan::Plan;
+use crate::{Evaluator, graph};
 
 /// A place for an intermediate value; the first three hold x, y and z.
 pub type Register = u32;
@@ -40,22 +40,62 @@ pub enum Op {
 }
 
 impl Op {
-    /// The same operation on registers of other names.
-    pub(crate) fn renamed(self, mut name: impl FnMut(Register) -> Register) -> Self {
+    /// The registers that it reads.
+    pub fn operands(self) -> [Option<Register>; 2] {
+        match self {
+            Self::Load(_) => [None, None],
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Binary(_, a, b) => [Some(a), Some(b)],
+            Self::Neg(a)
+            | Self::Scale(a, _)
+            | Self::Offset(a, _)
+            | Self::Sqr(a)
+            | Self::Powi(a, _)
+            | Self::Powc(a, _)
+            | Self::Unary(_, a) => [Some(a), None],
+        }
+    }
+
+    /// The constant that it reads.
+    pub fn constant(self) -> Option<u32> {
+        match self {
+            Self::Load(c) | Self::Scale(_, c) | Self::Offset(_, c) | Self::Powc(_, c) => Some(c),
+            _ => None,
+        }
+    }
+
+    /// The same operation on other registers.
+    pub(crate) fn map(self, mut f: impl FnMut(Register) -> Register) -> Self {
         match self {
             Self::Load(c) => Self::Load(c),
-            Self::Add(a, b) => Self::Add(name(a), name(b)),
-            Self::Sub(a, b) => Self::Sub(name(a), name(b)),
-            Self::Mul(a, b) => Self::Mul(name(a), name(b)),
-            Self::Div(a, b) => Self::Div(name(a), name(b)),
-            Self::Neg(a) => Self::Neg(name(a)),
-            Self::Scale(a, c) => Self::Scale(name(a), c),
-            Self::Offset(a, c) => Self::Offset(name(a), c),
-            Self::Sqr(a) => Self::Sqr(name(a)),
-            Self::Powi(a, n) => Self::Powi(name(a), n),
-            Self::Powc(a, c) => Self::Powc(name(a), c),
-            Self::Unary(f, a) => Self::Unary(f, name(a)),
-            Self::Binary(f, a, b) => Self::Binary(f, name(a), name(b)),
+            Self::Add(a, b) => Self::Add(f(a), f(b)),
+            Self::Sub(a, b) => Self::Sub(f(a), f(b)),
+            Self::Mul(a, b) => Self::Mul(f(a), f(b)),
+            Self::Div(a, b) => Self::Div(f(a), f(b)),
+            Self::Neg(a) => Self::Neg(f(a)),
+            Self::Scale(a, c) => Self::Scale(f(a), c),
+            Self::Offset(a, c) => Self::Offset(f(a), c),
+            Self::Sqr(a) => Self::Sqr(f(a)),
+            Self::Powi(a, n) => Self::Powi(f(a), n),
+            Self::Powc(a, c) => Self::Powc(f(a), c),
+            Self::Unary(g, a) => Self::Unary(g, f(a)),
+            Self::Binary(g, a, b) => Self::Binary(g, f(a), f(b)),
+        }
+    }
+
+    /// Is it defined and continuous for all real operands?
+    pub fn is_continuous(self) -> bool {
+        match self {
+            Self::Div(..) | Self::Powc(..) => false,
+            Self::Powi(_, n) => n >= 0,
+            Self::Unary(f, _) => {
+                graph::is_total(f) && !matches!(f, Unary::Sign | Unary::Floor | Unary::Ceil)
+            }
+            Self::Binary(f, ..) => matches!(f, Binary::Min | Binary::Max | Binary::Hypot),
+            _ => true,
         }
     }
 }
@@ -87,28 +127,13 @@ impl Tape {
     pub fn new(instructions: Vec<Instruction>, constants: Vec<Constant>, output: Register) -> Self {
         let mut written = vec![true; 3];
         let read = |written: &[bool], r: Register| {
-            assert!(
-                written.get(r as usize) == Some(&true),
-                "register {r} is read before it is set"
-            );
+            let is_written = written.get(r as usize) == Some(&true);
+            assert!(is_written, "register {r} is read before it is set");
         };
         for Instruction { op, out } in &instructions {
-            let constant = |c: u32| assert!((c as usize) < constants.len(), "no constant {c}");
-            match *op {
-                Op::Load(c) => constant(c),
-                Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => {
-                    read(&written, a);
-                    read(&written, b);
-                }
-                Op::Binary(_, a, b) => {
-                    read(&written, a);
-                    read(&written, b);
-                }
-                Op::Neg(a) | Op::Sqr(a) | Op::Powi(a, _) | Op::Unary(_, a) => read(&written, a),
-                Op::Scale(a, c) | Op::Offset(a, c) | Op::Powc(a, c) => {
-                    read(&written, a);
-                    constant(c);
-                }
+            op.operands().into_iter().flatten().for_each(|r| read(&written, r));
+            if let Some(c) = op.constant() {
+                assert!((c as usize) < constants.len(), "no constant {c}");
             }
             let out = *out as usize;
             if written.len() <= out {
@@ -136,48 +161,36 @@ impl Tape {
         self.output
     }
 
-    /// The total degree in x, y and z, if the operations make a polynomial.
+    /// The number of registers that an evaluator needs.
+    pub fn registers(&self) -> usize {
+        self.registers
+    }
+
+    /// The total degree, if this is a polynomial in x, y, z.
+    ///
+    /// Terms that cancel are counted, so the true degree may be lower.
     pub fn degree(&self) -> Option<u32> {
         let mut degrees = vec![Some(1_u32); self.registers];
-        for &Instruction { op, out } in &self.instructions {
-            let of = |r: Register| degrees[r as usize];
-            degrees[out as usize] = match op {
+        for Instruction { op, out } in &self.instructions {
+            let [a, b] = op.operands().map(|r| r.and_then(|r| degrees[r as usize]));
+            degrees[*out as usize] = match *op {
                 Op::Load(_) => Some(0),
-                Op::Add(a, b) | Op::Sub(a, b) => of(a).zip(of(b)).map(|(a, b)| a.max(b)),
-                Op::Mul(a, b) => of(a).zip(of(b)).and_then(|(a, b)| a.checked_add(b)),
-                Op::Neg(a) | Op::Scale(a, _) | Op::Offset(a, _) => of(a),
-                Op::Sqr(a) => of(a).and_then(|a| a.checked_mul(2)),
-                Op::Powi(a, n) if n >= 0 => of(a).and_then(|a| a.checked_mul(n.unsigned_abs())),
-                Op::Div(..) | Op::Powi(..) | Op::Powc(..) | Op::Unary(..) | Op::Binary(..) => None,
+                Op::Add(..) | Op::Sub(..) => a.zip(b).map(|(a, b)| a.max(b)),
+                Op::Mul(..) => a.zip(b).map(|(a, b)| a.saturating_add(b)),
+                Op::Neg(_) | Op::Scale(..) | Op::Offset(..) => a,
+                Op::Sqr(_) => a.map(|a| a.saturating_mul(2)),
+                Op::Powi(_, n) => a.zip(u32::try_from(n).ok()).map(|(a, n)| a.saturating_mul(n)),
+                Op::Div(..) | Op::Powc(..) | Op::Unary(..) | Op::Binary(..) => None,
             };
         }
         degrees[self.output as usize]
     }
 
-    /// Is the function defined and continuous everywhere, whatever its arguments?
-    pub fn is_everywhere_continuous(&self) -> bool {
-        self.instructions.iter().all(|i| match i.op {
-            Op::Div(..) | Op::Powc(..) => false,
-            Op::Powi(_, n) => n >= 0,
-            Op::Unary(f, _) => matches!(
-                f,
-                Unary::Abs
-                    | Unary::Cbrt
-                    | Unary::Exp
-                    | Unary::Exp2
-                    | Unary::Exp10
-                    | Unary::Expm1
-                    | Unary::Sin
-                    | Unary::Cos
-                    | Unary::Atan
-                    | Unary::Sinh
-                    | Unary::Cosh
-                    | Unary::Tanh
-                    | Unary::Asinh
-            ),
-            Op::Binary(f, ..) => matches!(f, Binary::Min | Binary::Max | Binary::Hypot),
-            _ => true,
-        })
+    /// Is the function continuous on all of space because each of its operations is?
+    ///
+    /// False for divisions, roots, logarithms, jumps and the like: their values have to be looked at.
+    pub fn is_continuous(&self) -> bool {
+        self.instructions.iter().all(|i| i.op.is_continuous())
     }
 
     /// An evaluator over numbers like `context`, which it reuses from call to call.

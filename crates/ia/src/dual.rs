@@ -184,32 +184,31 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     fn unary(self, f: Unary) -> Self {
         let x = self.value.clone();
         let y = x.clone().unary(f);
-        let one = || x.constant(&ONE);
         let slope = match f {
-            Unary::Sqrt => one() / y.clone().scale(&TWO),
-            Unary::Cbrt => one() / y.clone().sqr().scale(&THREE),
+            Unary::Sqrt => x.constant(&ONE) / y.clone().scale(&TWO),
+            Unary::Cbrt => x.constant(&ONE) / y.clone().sqr().scale(&THREE),
             Unary::Abs => x.unary(Unary::Sign),
             Unary::Sign | Unary::Floor | Unary::Ceil => x.constant(&ZERO),
             Unary::Exp => y.clone(),
             Unary::Exp2 => y.clone().scale(&LN_2),
             Unary::Exp10 => y.clone().scale(&LN_10),
             Unary::Expm1 => y.clone().offset(&ONE),
-            Unary::Log => one() / x,
-            Unary::Log2 => one() / x.scale(&LN_2),
-            Unary::Log10 => one() / x.scale(&LN_10),
-            Unary::Logp1 => one() / x.offset(&ONE),
+            Unary::Log => x.constant(&ONE) / x,
+            Unary::Log2 => x.constant(&ONE) / x.scale(&LN_2),
+            Unary::Log10 => x.constant(&ONE) / x.scale(&LN_10),
+            Unary::Logp1 => x.constant(&ONE) / x.offset(&ONE),
             Unary::Sin => x.unary(Unary::Cos),
             Unary::Cos => -x.unary(Unary::Sin),
             Unary::Tan => y.clone().sqr().offset(&ONE),
-            Unary::Asin => one() / (one() - x.sqr()).unary(Unary::Sqrt),
-            Unary::Acos => -(one() / (one() - x.sqr()).unary(Unary::Sqrt)),
-            Unary::Atan => one() / x.sqr().offset(&ONE),
+            Unary::Asin => x.constant(&ONE) / (x.constant(&ONE) - x.sqr()).unary(Unary::Sqrt),
+            Unary::Acos => -(x.constant(&ONE) / (x.constant(&ONE) - x.sqr()).unary(Unary::Sqrt)),
+            Unary::Atan => x.constant(&ONE) / x.sqr().offset(&ONE),
             Unary::Sinh => x.unary(Unary::Cosh),
             Unary::Cosh => x.unary(Unary::Sinh),
-            Unary::Tanh => one() - y.clone().sqr(),
-            Unary::Asinh => one() / x.sqr().offset(&ONE).unary(Unary::Sqrt),
-            Unary::Acosh => one() / x.sqr().offset(&MINUS_ONE).unary(Unary::Sqrt),
-            Unary::Atanh => one() / (one() - x.sqr()),
+            Unary::Tanh => x.constant(&ONE) - y.clone().sqr(),
+            Unary::Asinh => x.constant(&ONE) / x.sqr().offset(&ONE).unary(Unary::Sqrt),
+            Unary::Acosh => x.constant(&ONE) / x.sqr().offset(&MINUS_ONE).unary(Unary::Sqrt),
+            Unary::Atanh => x.constant(&ONE) / (x.constant(&ONE) - x.sqr()),
         };
         self.chain(y, slope)
     }

@@ -1,6 +1,6 @@
 //! Elementary functions of single floats.
 
-use crate::{Binary, Unary};
+use crate::{Binary, Unary, single};
 
 macro_rules! scalar_functions {
     (
@@ -37,15 +37,34 @@ macro_rules! scalar_functions {
     };
 }
 
+/// The function in single precision, within 0.51 units in the last place.
+pub(crate) fn unary_f32(f: Unary, x: f32) -> f32 {
+    match f {
+        Unary::Exp => single::exp(x),
+        Unary::Log => single::log(x),
+        Unary::Sin if x.abs() <= single::LARGEST_ANGLE => single::sin(x),
+        Unary::Cos if x.abs() <= single::LARGEST_ANGLE => single::cos(x),
+        _ => rounded_unary_f32(f, x),
+    }
+}
+
+/// The function in single precision, within 0.51 units in the last place.
+pub(crate) fn binary_f32(f: Binary, x: f32, y: f32) -> f32 {
+    match f {
+        Binary::Pow => single::pow(x, y).unwrap_or_else(|| rounded_binary_f32(f, x, y)),
+        _ => rounded_binary_f32(f, x, y),
+    }
+}
+
 scalar_functions! {
     /// The function in single precision, correctly rounded.
-    f32: unary_f32 {
+    f32: rounded_unary_f32 {
         Cbrt = cbrtf, Exp = expf, Exp2 = exp2f, Exp10 = exp10f, Expm1 = expm1f, Log = logf,
         Log2 = log2f, Log10 = log10f, Logp1 = log1pf, Sin = sinf, Cos = cosf, Tan = tanf,
         Asin = asinf, Acos = acosf, Atan = atanf, Sinh = sinhf, Cosh = coshf, Tanh = tanhf,
         Asinh = asinhf, Acosh = acoshf, Atanh = atanhf,
     }
-    binary_f32 { Atan2 = atan2f, Hypot = hypotf, Pow = powf, }
+    rounded_binary_f32 { Atan2 = atan2f, Hypot = hypotf, Pow = powf, }
 }
 
 scalar_functions! {

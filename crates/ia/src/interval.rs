@@ -98,15 +98,14 @@ impl<R: Real, F: Flavor> Interval<R, F> {
     #[inline(always)]
     fn power(self, n: u32) -> Self {
         if n.is_multiple_of(2) {
-            let (mig, mag) = (self.mignitude(), self.magnitude());
-            return Self::new(power_down(mig, n), power_up(mag, n)).empty_where(self);
+            let [lo, hi] = powers(self.mignitude(), self.magnitude(), n);
+            return Self::new(lo, hi).empty_where(self);
         }
         // Odd powers increase: x^n = x |x|^(n-1), the even power rounded away from the result's end.
         let zero = zero(self.lo);
-        let [low, high] = [self.lo.abs(), self.hi.abs()];
-        let (down, up) = (power_down(low, n - 1), power_up(low, n - 1));
+        let [down, up] = powers(self.lo.abs(), self.lo.abs(), n - 1);
         let lo = self.lo.mul_down(self.lo.select_lt(zero, up, down));
-        let (down, up) = (power_down(high, n - 1), power_up(high, n - 1));
+        let [down, up] = powers(self.hi.abs(), self.hi.abs(), n - 1);
         let hi = self.hi.mul_up(self.hi.select_lt(zero, down, up));
         Self::new(lo, hi)
     }
@@ -165,46 +164,26 @@ fn product<R: Real>(x: R, y: R) -> R {
     p.select_lt(zero, p, zero.select_lt(p, p, zero))
 }
 
-/// `x^n` for `x >= 0`, `n >= 1`, every product rounded by `mul`, which may not fall below 0.
+/// `[a^n rounded down, b^n rounded up]` for `a, b >= 0`, `n >= 1`. Without closures, which would lose
+/// the instruction set.
 #[inline(always)]
-fn power<R: Real>(x: R, n: u32, mul: impl Fn(R, R) -> R) -> R {
-    let mut square = x;
-    let mut result = None;
-    let mut n = n;
-    loop {
-        if n & 1 == 1 {
-            result = Some(match result {
-                None => square,
-                Some(r) => mul(r, square),
-            });
-        }
-        n >>= 1;
-        if n == 0 {
-            return result.expect("n is at least 1");
-        }
-        square = mul(square, square);
+fn powers<R: Real>(a: R, b: R, n: u32) -> [R; 2] {
+    let zero = zero(a);
+    let (mut a, mut b) = (a, b);
+    let mut rest = n >> n.trailing_zeros();
+    for _ in 0..n.trailing_zeros() {
+        (a, b) = (a.mul_down(a).max(zero), b.mul_up(b));
     }
-}
-
-#[inline(always)]
-fn power_down<R: Real>(x: R, n: u32) -> R {
-    let zero = zero(x);
-    power(
-        x,
-        n,
-        #[inline(always)]
-        |a, b| a.mul_down(b).max(zero),
-    )
-}
-
-#[inline(always)]
-fn power_up<R: Real>(x: R, n: u32) -> R {
-    power(
-        x,
-        n,
-        #[inline(always)]
-        |a, b| a.mul_up(b),
-    )
+    let (mut down, mut up) = (a, b);
+    rest >>= 1;
+    while rest > 0 {
+        (a, b) = (a.mul_down(a).max(zero), b.mul_up(b));
+        if rest & 1 == 1 {
+            (down, up) = (down.mul_down(a).max(zero), up.mul_up(b));
+        }
+        rest >>= 1;
+    }
+    [down, up]
 }
 
 impl<R: Real, F: Flavor> Add for Interval<R, F> {
@@ -257,9 +236,10 @@ impl<R: Real, F: Flavor> Div for Interval<R, F> {
     fn div(self, o: Self) -> Self {
         let zero = zero(self.lo);
         // x / y = (-x) / (-y) makes the divisor positive; adding 0 makes -0 into +0.
-        let turn = |x: R, y: R| zero.select_lt(o.hi, x, -y);
-        let (a, b) = (turn(self.lo, self.hi), turn(self.hi, self.lo));
-        let (c, d) = (turn(o.lo, o.hi) + zero, turn(o.hi, o.lo) + zero);
+        let a = zero.select_lt(o.hi, self.lo, -self.hi);
+        let b = zero.select_lt(o.hi, self.hi, -self.lo);
+        let c = zero.select_lt(o.hi, o.lo, -o.hi) + zero;
+        let d = zero.select_lt(o.hi, o.hi, -o.lo) + zero;
         let lo = a.div_down(a.select_lt(zero, c, d));
         let hi = b.div_up(zero.select_lt(b, c, d));
         if !F::SET {
@@ -267,13 +247,14 @@ impl<R: Real, F: Flavor> Div for Interval<R, F> {
         }
         // 0 inside the divisor: everything, unless the dividend is 0 alone.
         let infinity = zero.splat(R::Scalar::INFINITY);
-        let within = |end: R, zero_end: R| a.select_lt(zero, end, zero.select_lt(b, end, zero_end));
-        let (low, high) = (within(-infinity, zero.down()), within(infinity, zero.up()));
+        let low = a.select_lt(zero, -infinity, zero.select_lt(b, -infinity, zero.down()));
+        let high = a.select_lt(zero, infinity, zero.select_lt(b, infinity, zero.up()));
         let around = Self::new(c.select_lt(zero, low, lo), c.select_lt(zero, high, hi));
         // Divisor 0 alone: nothing.
         let nan = zero.splat(R::Scalar::NAN);
-        let some = |x: R| c.select_lt(zero, x, zero.select_lt(d, x, nan));
-        Self::new(some(around.lo), some(around.hi)).empty_where(self)
+        let lo = c.select_lt(zero, around.lo, zero.select_lt(d, around.lo, nan));
+        let hi = c.select_lt(zero, around.hi, zero.select_lt(d, around.hi, nan));
+        Self::new(lo, hi).empty_where(self)
     }
 }
 
@@ -287,21 +268,17 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
     #[inline(always)]
     fn scale(self, c: &Constant) -> Self {
         let [c_lo, c_hi] = R::Scalar::enclose(c);
-        let (zero, infinity) = (R::Scalar::from_f64(0.0), R::Scalar::INFINITY);
-        if !(zero < c_lo && c_hi < infinity || c_hi < zero && -infinity < c_lo) {
+        let zero = R::Scalar::from_f64(0.0);
+        if c_lo != c_hi || F::SET && c_lo == zero {
             return self * self.constant(c);
         }
-        // A factor of one sign: the signs tell which product is which end.
-        let (least, most) = (self.lo.splat(c_lo), self.lo.splat(c_hi));
-        let (lo, hi) = if zero < c_lo { (self.lo, self.hi) } else { (self.hi, self.lo) };
-        if c_lo == c_hi {
-            return Self::new(lo.mul_down(least), hi.mul_up(least));
+        // A point factor: its sign tells which end is which.
+        let factor = self.lo.splat(c_lo);
+        if c_lo < zero {
+            Self::new(self.hi.mul_down(factor), self.lo.mul_up(factor))
+        } else {
+            Self::new(self.lo.mul_down(factor), self.hi.mul_up(factor))
         }
-        let zero = self.lo.splat(zero);
-        Self::new(
-            lo.mul_down(lo.select_lt(zero, most, least)),
-            hi.mul_up(hi.select_lt(zero, least, most)),
-        )
     }
 
     #[inline(always)]
@@ -347,8 +324,8 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
                     return root;
                 }
                 let nan = zero.splat(R::Scalar::NAN);
-                let some = |x: R| self.hi.select_lt(zero, nan, x);
-                Self::new(some(root.lo), some(root.hi)).empty_where(self)
+                let lo = self.hi.select_lt(zero, nan, root.lo);
+                Self::new(lo, self.hi.select_lt(zero, nan, root.hi)).empty_where(self)
             }
             _ => self.map(|x| range::unary(f, x)),
         }

@@ -36,6 +36,7 @@ pub mod number;
 pub mod plain;
 mod range;
 pub mod real;
+mod single;
 
 pub use big::BigInterval;
 pub use constant::Constant;

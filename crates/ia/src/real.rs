@@ -137,7 +137,7 @@ pub trait Scalar: Real<Scalar = Self> + PartialOrd {
     fn enclose_range(lo: f64, hi: f64) -> [Self; 2];
     /// The value, exactly.
     fn to_f64(self) -> f64;
-    /// `f(self)`, correctly rounded to nearest (`f32`) or within one unit in the last place (`f64`).
+    /// `f(self)`, within 0.51 (`f32`) or one (`f64`) unit in the last place.
     fn elementary(self, f: crate::Unary) -> Self;
     /// `f(self, y)` for `atan2(self, y)`, `hypot` and `pow`, with the error of `elementary`.
     fn elementary2(self, f: crate::Binary, y: Self) -> Self;

@@ -233,3 +233,31 @@ impl Domain {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_domain_is_refused() {
+        let (low, high) = (DVec3::new(-1.0, -2.0, -3.0), DVec3::new(1.0, 2.0, 3.0));
+        let domain = Domain::new(low, high).unwrap();
+        for bad in [-2.0, -3.0, f64::NAN, f64::INFINITY] {
+            let error = Domain::new(low, DVec3 { y: bad, ..high }).unwrap_err().to_string();
+            assert!(error.contains(&format!("y range [-2, {bad}]")), "{error}");
+        }
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(domain.with_ball(bad).unwrap_err().to_string().contains(&bad.to_string()));
+        }
+    }
+
+    #[test]
+    fn sizes() {
+        let domain = Domain::new(DVec3::new(-1.0, 0.0, 1.0), DVec3::new(1.0, 1.0, 3.0)).unwrap();
+        assert_eq!(domain.centre(), DVec3::new(0.0, 0.5, 2.0));
+        assert_eq!(domain.radius(), 1.5);
+        assert_eq!(domain.longest_side(), 2.0);
+        assert_eq!(domain.with_ball(1.0).unwrap().radius(), 1.0);
+        assert_eq!(domain.with_ball(2.0).unwrap().radius(), 1.5);
+    }
+}

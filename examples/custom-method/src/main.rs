@@ -2,11 +2,11 @@
 
 use custom_method::Uniform;
 use zeroset_bench::{Options, Registry, Verdict, compare};
-use zeroset_raycast::catalogue::Catalogue;
+use zeroset_raycast::catalogue;
 use zeroset_raycast::{Camera, Method, Progress, Rays, View};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let scene = Catalogue::standard().resolve("barth-sextic")?;
+    let scene = catalogue::resolve("barth-sextic", None)?.scene()?;
     let view = View::new(Camera::facing(&scene.domain), 128, 128);
     let registry = Registry::standard().with(Box::new(Uniform::default()));
     let methods: Vec<_> = registry.iter().map(Method::boxed).collect();

@@ -15,7 +15,7 @@ fn failures(equation: &str) -> Vec<Failure> {
 #[test]
 fn polynomials_conform() {
     assert_eq!(failures("x^2 + y^2 + z^2 = 1"), []);
-    assert_eq!(failures("(x^2 + y^2 + z^2 + 0.75)^2 = 4 (x^2 + y^2)"), []);
+    assert_eq!(failures("(x^2 + y^2 + z^2 + 0.75)^2 = 4*(x^2 + y^2)"), []);
 }
 
 #[test]

@@ -19,7 +19,7 @@ pub(super) struct Segment {
     /// The unit vector along the ray.
     direction: [f32; 3],
     length: f32,
-    /// t_s and t_e.
+    /// `t_s` and `t_e`.
     range: [f64; 2],
     /// Length in space for 1 in t.
     speed: f64,

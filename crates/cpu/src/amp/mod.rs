@@ -1,6 +1,6 @@
 //! Adaptive marching points, [singh2010].
 //!
-//! S(p(t)) is sampled along the ray from t_s to t_e until a step holds a root by the [root
+//! S(p(t)) is sampled along the ray from `t_s` to `t_e` until a step holds a root by the [root
 //! test](RootTest); ten bisections then narrow it (Algorithm 1). Eq. 2 adapts the step: halved near
 //! the surface, halved again near a silhouette, doubled far away. Nothing is proved: close pairs of
 //! roots and double roots are missed, and a pole that changes sign counts as a root. What the paper
@@ -25,7 +25,7 @@ use rule::Settings;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RootTest {
-    /// S(p(t_i)) S(p(t_i+1)) < 0: no false roots but at poles; an even number of roots is missed.
+    /// `S(p(t_i)) S(p(t_i+1)) < 0`: no false roots but at poles; an even number of roots is missed.
     #[default]
     Sign,
 }
@@ -52,12 +52,12 @@ pub struct Amp {
     pub step: Option<f64>,
     /// The value of S that counts as 1 in the thresholds and in `epsilon`.
     pub scale: Option<f64>,
-    /// tau_1: the surface is near where |S| is at most this.
+    /// `tau_1`: the surface is near where |S| is at most this.
     pub tau1: Option<f64>,
-    /// tau_2: the surface is far where |S| is more than this.
+    /// `tau_2`: the surface is far where |S| is more than this.
     pub tau2: Option<f64>,
-    /// tau_3: a silhouette is near where |S| is at most tau_1 and |grad S . D| at most this, D being
-    /// the unit vector along the ray.
+    /// `tau_3`: a silhouette is near where |S| is at most `tau_1` and |grad S . D| at most this, D
+    /// being the unit vector along the ray.
     pub tau3: Option<f64>,
     /// How often the isolated interval is halved. Default: 10, the paper's.
     pub bisections: u32,

@@ -9,15 +9,15 @@ use zeroset_raycast::{Clip, Ray, Work};
 
 type I = Interval<f64, Set>;
 
-/// What is proved about a slab.
+/// What is proved from a slab on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Finding {
-    /// It holds no root.
-    Empty,
+    /// There is no root from the slab's start to this t.
+    EmptyUntil(f64),
     /// A root lies in the range, and the range starts before every root at or after the slab's start.
     Root([f64; 2]),
-    /// It may hold a root, or none.
-    Unknown,
+    /// There is no root before the range; it may hold one.
+    Unknown([f64; 2]),
 }
 
 /// Settles slabs of a function.
@@ -28,8 +28,25 @@ pub(super) struct Finish<'a> {
     continuity: Option<Evaluator<'a, Decorated<f64>>>,
 }
 
-/// How many enclosures of value and slope a slab may cost.
-const BUDGET: u64 = 48;
+/// A piece of a ray, by the enclosures of value and slope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Piece {
+    Empty,
+    /// The function is continuous and monotone, with opposite signs at the ends.
+    Crossing,
+    Undecided,
+}
+
+/// How many pieces are tried for a slab, before the march goes on where they ended.
+const PIECES: u32 = 48;
+/// A piece this many slabs long without a root: back to the march. Eight times as many at each return,
+/// for then the march's enclosures tell little.
+const FAR: f64 = 64.0;
+/// The shortest piece, as a part of the bracket's width.
+const FINEST: f64 = 1.0 / 64.0;
+
+/// How many enclosures of value and slope a ray may cost before a slab is accepted unsettled.
+pub(super) const RAY_BUDGET: u64 = 256;
 
 impl<'a> Finish<'a> {
     pub(super) fn new(tape: &'a Tape) -> Self {
@@ -37,101 +54,141 @@ impl<'a> Finish<'a> {
         Self {
             values: tape.evaluator(&zero),
             slopes: tape.evaluator(&Dual::constant_value(zero)),
-            continuity: (!tape.is_everywhere_continuous())
-                .then(|| tape.evaluator(&Decorated::new(zero))),
+            continuity: (!tape.is_continuous()).then(|| tape.evaluator(&Decorated::new(zero))),
         }
     }
 
-    /// Settles the slab `[t0, t1]` of a ray, with a bracket at most `width` wide.
+    /// Proves what it can from `start`, the start of a slab, on, piece by piece along the ray. A piece
+    /// grows after a proof and shrinks after a failure. A bracket is at most `width` wide. The march
+    /// of this ray has come back `returns` times.
     pub(super) fn settle(
         &mut self,
         ray: Ray,
         clip: Clip,
-        slab: [f64; 2],
+        start: f64,
+        slab: f64,
+        returns: i32,
         width: f64,
         work: &mut Work,
     ) -> Finding {
-        let slab = [slab[0].max(clip.outer[0]), slab[1].min(clip.outer[1])];
-        if !(slab[0] <= slab[1]) {
-            return Finding::Empty;
+        let far = FAR * slab * 8.0_f64.powi(returns);
+        let end = clip.outer[1];
+        let mut from = start.max(clip.outer[0]);
+        let mut step = 4.0 * slab;
+        let mut tried = f64::NEG_INFINITY;
+        for _ in 0..PIECES {
+            let to = (from + step).min(end);
+            match self.examine(ray, [from, to], work) {
+                Piece::Empty if to >= end => return Finding::EmptyUntil(f64::INFINITY),
+                Piece::Empty => {
+                    from = to;
+                    step *= 2.0;
+                    if step > far {
+                        break;
+                    }
+                }
+                Piece::Crossing => return self.narrow(ray, clip, [from, to], width, work),
+                Piece::Undecided => {
+                    if step <= width && tried != from {
+                        tried = from;
+                        if let Some(bracket) = self.sign_change(ray, clip, from, width, work) {
+                            return Finding::Root(bracket);
+                        }
+                    }
+                    if step <= FINEST * width || !(from < from + 0.25 * step) {
+                        return Finding::Unknown([from, to]);
+                    }
+                    step *= 0.25;
+                }
+            }
         }
-        if let Some(bracket) = self.sign_change(ray, clip, slab, width, work) {
-            return Finding::Root(bracket);
-        }
-        self.bisect(ray, clip, slab, width, work)
+        Finding::EmptyUntil(from)
     }
 
-    /// A range of the given width, from shortly before the slab, at whose ends the function has
-    /// opposite signs.
+    /// Looks at a piece: natural enclosure, mean value form, monotonicity [mitchell1990].
+    fn examine(&mut self, ray: Ray, range: [f64; 2], work: &mut Work) -> Piece {
+        let point = along(ray, range);
+        let d = ray.direction.as_dvec3().to_array();
+        let variables: [Dual<I, 1>; 3] =
+            std::array::from_fn(|axis| Dual { value: point[axis], tangent: [I::point(d[axis])] });
+        let Dual { value, tangent: [slope] } = self.slopes.evaluate(variables);
+        work.gradients += 1;
+        if value.is_empty() || !value.contains_zero() {
+            return Piece::Empty;
+        }
+        // What follows rests on the mean value theorem.
+        if !slope.is_bounded_by(f64::MAX) || !self.is_continuous(ray, range) {
+            return Piece::Undecided;
+        }
+        if slope.lo > 0.0 || slope.hi < 0.0 {
+            let [a, b] = range.map(|t| sign(self.value(ray, [t, t], work)));
+            return match a * b {
+                1 => Piece::Empty,
+                -1 => Piece::Crossing,
+                _ => Piece::Undecided,
+            };
+        }
+        let middle = 0.5 * (range[0] + range[1]);
+        let offset = I::new(range[0], range[1]) - I::point(middle);
+        let centred = self.value(ray, [middle, middle], work) + slope * offset;
+        if centred.contains_zero() { Piece::Undecided } else { Piece::Empty }
+    }
+
+    /// Narrows a range at whose ends a monotone function has opposite signs.
+    fn narrow(
+        &mut self,
+        ray: Ray,
+        clip: Clip,
+        [mut a, mut b]: [f64; 2],
+        width: f64,
+        work: &mut Work,
+    ) -> Finding {
+        let before = sign(self.value(ray, [a, a], work));
+        while b - a > width {
+            let middle = 0.5 * (a + b);
+            match before * sign(self.value(ray, [middle, middle], work)) {
+                1 => a = middle,
+                -1 => b = middle,
+                // The root is too near the middle: put the middle off it.
+                _ => {
+                    let near = [middle - 0.25 * width, middle + 0.25 * width];
+                    let near = [near[0].max(a), near[1].min(b)];
+                    if !self.changes_sign(ray, near, work) {
+                        return Finding::Unknown([a, b]);
+                    }
+                    [a, b] = near;
+                    break;
+                }
+            }
+        }
+        match clip.inner {
+            Some([lo, hi]) if lo <= a && b <= hi => Finding::Root([a, b]),
+            _ => Finding::Unknown([a, b]),
+        }
+    }
+
+    /// A range of the given width, from shortly before `start`, at whose ends the function has
+    /// opposite signs; there is no root from the slab's start to `start`.
     fn sign_change(
         &mut self,
         ray: Ray,
         clip: Clip,
-        slab: [f64; 2],
+        start: f64,
         width: f64,
         work: &mut Work,
     ) -> Option<[f64; 2]> {
         let inner = clip.inner?;
-        let from = (slab[0] - width / 8.0).max(inner[0]);
+        let from = (start - width / 8.0).max(inner[0]);
         // Rounded down so that the printed difference is not above the width.
         let to = (from + width).next_down().min(inner[1]);
         if !(from < to) {
             return None;
         }
         // Where the slab starts outside the surely inner part, a root there would come first.
-        if from > slab[0] && self.value(ray, [slab[0], from], work).contains_zero() {
+        if from > start && self.value(ray, [start, from], work).contains_zero() {
             return None;
         }
         (self.changes_sign(ray, [from, to], work)).then_some([from, to])
-    }
-
-    /// The first root in the slab, by bisection and the monotonicity test of [mitchell1990].
-    fn bisect(
-        &mut self,
-        ray: Ray,
-        clip: Clip,
-        slab: [f64; 2],
-        width: f64,
-        work: &mut Work,
-    ) -> Finding {
-        let mut pieces = vec![slab];
-        let mut spent = 0;
-        while let Some([a, b]) = pieces.pop() {
-            spent += 1;
-            let point = along(ray, [a, b]);
-            let d = ray.direction.as_dvec3().to_array();
-            let variables: [Dual<I, 1>; 3] = std::array::from_fn(|axis| Dual {
-                value: point[axis],
-                tangent: [I::point(d[axis])],
-            });
-            let value = self.slopes.evaluate(variables);
-            work.gradients += 1;
-            if value.value.is_empty() || !value.value.contains_zero() {
-                continue;
-            }
-            let monotone = !value.tangent[0].contains_zero() && !value.tangent[0].is_empty();
-            if monotone && self.is_continuous(ray, [a, b]) {
-                let [fa, fb] = [a, b].map(|t| self.value(ray, [t, t], work));
-                if sign(fa) * sign(fb) > 0 {
-                    continue;
-                }
-                if sign(fa) * sign(fb) < 0 {
-                    let certain = clip.inner.is_some_and(|i| i[0] <= a && b <= i[1]);
-                    return if certain && b - a <= width {
-                        Finding::Root([a, b])
-                    } else {
-                        Finding::Unknown
-                    };
-                }
-            }
-            let middle = 0.5 * (a + b);
-            if spent >= BUDGET || !(a < middle && middle < b) {
-                return Finding::Unknown;
-            }
-            pieces.push([middle, b]);
-            pieces.push([a, middle]);
-        }
-        Finding::Empty
     }
 
     /// Does the function, continuous on the range, have opposite signs at its ends?

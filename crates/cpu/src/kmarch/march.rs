@@ -7,6 +7,8 @@ use zeroset_raycast::{Ray, Work};
 
 use super::slab::{Axis, Bounds, Lattice};
 
+/// The march starts with four slabs: where it starts with one, nearly all are bisected twice.
+pub(super) const FIRST: u32 = 2;
 /// Finest slab: 2^-40 of the domain.
 pub(super) const MAX_DEPTH: u32 = 40;
 
@@ -24,12 +26,12 @@ pub(super) struct Marcher {
 }
 
 /// What becomes of a slab at a ray's last depth in which the function may vanish.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Verdict {
     /// The ray ends here.
     Stop,
-    /// The slab holds no root: the ray goes on.
-    Continue,
+    /// There is no root before this q: the ray goes on there.
+    Continue(f64),
 }
 
 /// Decides about slabs, and collects the answers.
@@ -59,7 +61,7 @@ impl<J: Judge> March<'_, J> {
         for (axis, marchers) in self.groups {
             for packet in marchers.chunks(R::LANES) {
                 let lattice = Lattice::new(zero, *axis, self.bounds, packet);
-                march(&mut evaluator, &lattice, *axis, self.first, packet, self.judge);
+                march(&mut evaluator, lattice, *axis, self.first, packet, self.judge);
             }
         }
     }
@@ -91,7 +93,7 @@ impl<J: Judge> Kernel for SetMarch<'_, J> {
 #[inline(always)]
 fn march<R: Packet, F: Flavor>(
     evaluator: &mut Evaluator<'_, Interval<R, F>>,
-    lattice: &Lattice<R>,
+    mut lattice: Lattice<R>,
     axis: Axis,
     first: u32,
     packet: &[Marcher],
@@ -145,9 +147,9 @@ fn march<R: Packet, F: Flavor>(
                     let lane = reached.trailing_zeros();
                     reached &= reached - 1;
                     let marcher = &packet[lane as usize];
-                    if judge.reached(axis, marcher, slab, dropped >> lane & 1 == 1) == Verdict::Stop
-                    {
-                        alive &= !(1 << lane);
+                    match judge.reached(axis, marcher, slab, dropped >> lane & 1 == 1) {
+                        Verdict::Stop => alive &= !(1 << lane),
+                        Verdict::Continue(q) => lattice.skip(1 << lane, q),
                     }
                 }
             }

@@ -10,7 +10,9 @@ mod march;
 mod slab;
 
 use zeroset_expr::{Parameters, Tape};
-use zeroset_ia::{Interval, Isa, Kernel, Nearest, Rounding, Scalar, Set, dispatch, widest};
+use zeroset_ia::{
+    Decorated, Decoration, Interval, Isa, Kernel, Nearest, Rounding, Scalar, dispatch, widest,
+};
 use zeroset_raycast::{
     Certificate, Domain, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray,
     Rays, Report, Scene, Unsupported, Work, knob,
@@ -19,7 +21,7 @@ use zeroset_raycast::{
 use crate::implicit::Implicit;
 use crate::{normals, tiles};
 use finish::{Finding, Finish};
-use march::{Judge, MAX_DEPTH, March, Marcher, RawMarch, SetMarch, Verdict};
+use march::{FIRST, Judge, MAX_DEPTH, March, Marcher, RawMarch, SetMarch, Verdict};
 use slab::{Axis, Bounds, Clock};
 
 /// What ends the bisection of a ray's slabs.
@@ -190,9 +192,9 @@ struct Form {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Arithmetic {
-    /// Every sub-value is bounded in single precision.
+    /// Every sub-value is defined and bounded in single precision.
     Raw,
-    /// Some sub-value is unbounded or empty: single precision, set-based.
+    /// Some sub-value is unbounded or undefined: single precision, set-based.
     Set,
     /// Something is too large for single precision: double precision, set-based.
     Double,
@@ -230,12 +232,14 @@ impl Form {
     }
 }
 
-/// Are all sub-values over the domain non-empty and within the limit?
+/// Over the domain, are all sub-values within the limit, and is every operation defined everywhere?
+/// Then this holds for every smaller box too, which raw intervals presuppose.
 fn is_bounded<S: Scalar>(tape: &Tape, bounds: &Bounds, limit: f64) -> bool {
-    let zero = Interval::<S, Set>::point(S::from_f64(0.0));
+    let point = bounds.ranges::<S>().map(|[lo, hi]| Decorated::new(Interval::new(lo, hi)));
     let mut bounded = true;
-    let point = bounds.ranges::<S>().map(|[lo, hi]| Interval::new(lo, hi));
-    tape.evaluator(&zero).visit(point, |x| bounded &= x.is_bounded_by(limit));
+    tape.evaluator(&point[0]).visit(point, |x| {
+        bounded &= x.interval.is_bounded_by(limit) && x.decoration >= Decoration::Defined;
+    });
     bounded
 }
 
@@ -279,6 +283,7 @@ impl Prepared {
             domain: &self.implicit.domain,
             range,
             hits: vec![miss; rays.len()],
+            settled: vec![Settled { empty_until: f64::NEG_INFINITY, times: 0 }; rays.len()],
             finish: (self.method.finish == Finishing::Certify)
                 .then(|| Finish::new(&self.implicit.tape)),
         };
@@ -299,11 +304,11 @@ impl Prepared {
         answers.hits
     }
 
+    /// The depth of the slabs with which marches start.
     fn first(&self) -> u32 {
-        let start = std::env::var("START").map_or(2, |x| x.parse().unwrap());
         match self.method.stop {
-            Stop::Depth(depth) => start.min(depth),
-            _ => start,
+            Stop::Depth(depth) => depth.min(FIRST),
+            Stop::Width(_) => FIRST,
         }
     }
 
@@ -311,15 +316,11 @@ impl Prepared {
     #[inline(always)]
     fn groups(&self, rays: &[Ray], range: [f64; 2]) -> Vec<(Axis, Vec<Marcher>)> {
         let mut groups: Vec<(Axis, Vec<Marcher>)> = Vec::with_capacity(Axis::COUNT);
-        let depths = [0, 1, 2].map(|k| {
-            self.deepest(
-                k,
-                match self.method.stop {
-                    Stop::Depth(d) => d,
-                    _ => 0,
-                },
-            )
-        });
+        let stop = match self.method.stop {
+            Stop::Depth(depth) => depth,
+            Stop::Width(_) => 0,
+        };
+        let depths = [self.deepest(0, stop), self.deepest(1, stop), self.deepest(2, stop)];
         let mut last = 0;
         for (ray, line) in rays.iter().enumerate() {
             let Some(clip) = self.implicit.domain.clip(*line, range) else { continue };
@@ -353,7 +354,7 @@ impl Prepared {
             Finishing::Certify => self.method.levels,
         };
         // Slabs finer than the rounding of coordinates gain nothing.
-        (stop + levels).min(self.form.bounds.finest(k)).min(MAX_DEPTH)
+        (stop + levels).min(self.form.bounds.finest(k)).min(MAX_DEPTH).max(self.first())
     }
 }
 
@@ -381,16 +382,30 @@ struct Answers<'a> {
     domain: &'a Domain,
     range: [f64; 2],
     hits: Vec<Hit>,
+    settled: Vec<Settled>,
     finish: Option<Finish<'a>>,
+}
+
+/// What the finish has done for a ray.
+#[derive(Clone, Copy, Debug)]
+struct Settled {
+    /// From the first slab that was settled to this t, there is no root.
+    empty_until: f64,
+    /// How many slabs were settled.
+    times: i32,
 }
 
 impl Judge for Answers<'_> {
     fn reached(&mut self, axis: Axis, marcher: &Marcher, slab: [f64; 2], dropped: bool) -> Verdict {
         let Marcher { ray, line, range, .. } = *marcher;
-        let [lo, hi] = Clock::new(line, axis, self.bounds.start(axis)).range(slab);
+        let clock = Clock::new(line, axis, self.bounds.start(axis));
+        let [lo, hi] = clock.range(slab);
         let slab = [lo.max(range[0]), hi.min(range[1])];
         let mut work = Work::default();
+        let unknown = Finding::Unknown([slab[0].min(slab[1]), slab[1]]);
         let finding = match &mut self.finish {
+            // A function whose enclosures tell nothing would have every slab settled.
+            Some(_) if self.hits[ray].work.gradients >= finish::RAY_BUDGET => unknown,
             Some(finish) => {
                 let width = match self.method.stop {
                     Stop::Width(width) => width,
@@ -400,18 +415,23 @@ impl Judge for Answers<'_> {
                 let width = width.max(8.0 * f64::EPSILON * hi.abs());
                 let clip =
                     self.domain.clip(line, self.range).expect("a marching ray meets the domain");
-                finish.settle(line, clip, slab, width, &mut work)
+                let settled = &mut self.settled[ray];
+                let start = lo.max(settled.empty_until);
+                settled.times += 1;
+                finish.settle(line, clip, start, hi - lo, settled.times - 1, width, &mut work)
             }
-            None => Finding::Unknown,
-        };
-        let (bracket, certificate) = match finding {
-            Finding::Empty => (None, Certificate::MISS),
-            Finding::Root(bracket) => (Some(bracket), Certificate::PROVEN_HIT),
-            Finding::Unknown => (Some([slab[0].min(slab[1]), slab[1]]), Certificate::POSSIBLE_HIT),
+            None => unknown,
         };
         let hit = &mut self.hits[ray];
         hit.work += work;
-        let Some(bracket) = bracket else { return Verdict::Continue };
+        let (bracket, certificate) = match finding {
+            Finding::EmptyUntil(t) => {
+                self.settled[ray].empty_until = t;
+                return Verdict::Continue(clock.q(t));
+            }
+            Finding::Root(bracket) => (bracket, Certificate::PROVEN_HIT),
+            Finding::Unknown(bracket) => (bracket, Certificate::POSSIBLE_HIT),
+        };
         hit.bracket = bracket;
         let certificate = if dropped { without_first(certificate) } else { certificate };
         hit.certificate = self.method.proof(certificate);

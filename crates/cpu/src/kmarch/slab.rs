@@ -100,6 +100,16 @@ impl Clock {
         Self { start: (start - f64::from(ray.origin[axis.k])) * inverse, pace: inverse.abs() }
     }
 
+    /// A q at most that of `t`: the largest number if t is infinite, NaN where it overflows. Four
+    /// roundings, of terms at most twice `(|t| + |start|) / pace`: less than 8 units of 2^-53.
+    pub(super) fn q(&self, t: f64) -> f64 {
+        if t == f64::INFINITY {
+            return f64::MAX;
+        }
+        let inverse = 1.0 / self.pace;
+        (t - self.start) * inverse - UNITS_8 * ((t.abs() + self.start.abs()) * inverse) - TINY
+    }
+
     /// The range of t between two boundaries, rounded outward; NaN where it overflows. `start` has
     /// three roundings, `q pace` two, the sum one and the end another: less than 8 units of 2^-53.
     pub(super) fn range(&self, [from, to]: [f64; 2]) -> [f64; 2] {
@@ -270,6 +280,14 @@ impl<R: Packet> Lattice<R> {
         let u = [u_lo.add_down(lanes.mul_down(r_lo)), u_hi.add_up(lanes.mul_up(r_hi))];
         let v = [v_lo.add_down(lanes.mul_down(s_lo)), v_hi.add_up(lanes.mul_up(s_hi))];
         Boundary { q, ends: [k, u, v] }
+    }
+
+    /// Lets the rays of a mask start at `q`, rounded down.
+    #[inline(always)]
+    pub(super) fn skip(&mut self, mask: u64, q: f64) {
+        let [down, _] = R::Scalar::enclose_range(q, q);
+        let start = self.start.splat(down).max(self.range[0]);
+        self.range[0] = start.select(mask, start, self.range[0]);
     }
 
     /// The rays whose range meets the slab between two boundaries.

@@ -83,7 +83,7 @@ fn natural<N: Outward>(like: &N, n: u128) -> N {
         return like.exact(n as f64);
     }
     let low = n & ((1 << SPLIT) - 1);
-    natural(like, n >> SPLIT) * like.exact((SPLIT as f64).exp2()) + like.exact(low as f64)
+    natural(like, n >> SPLIT) * like.exact(f64::from(SPLIT).exp2()) + like.exact(low as f64)
 }
 
 /// A form in the powers of `s = 2u - 1`, `sum a_k s^k`, in Bernstein form.

@@ -53,6 +53,7 @@ pub(super) struct Curve<'a, N: Outward> {
     values: Evaluator<'a, N>,
     slopes: Evaluator<'a, Dual<N, 1>>,
     form: Form<'a, N>,
+    degree: u32,
     /// What the ray has cost.
     pub(super) work: Work,
 }
@@ -79,6 +80,7 @@ impl<'a, N: Outward> Curve<'a, N> {
             values: tape.evaluator(context),
             slopes: tape.evaluator(&Dual::constant_value(zero)),
             form,
+            degree: degree.unwrap_or(0),
             work: Work::default(),
         }
     }
@@ -90,6 +92,11 @@ impl<'a, N: Outward> Curve<'a, N> {
         self.work = Work::default();
     }
 
+    /// An interval in the arithmetic of the curve.
+    pub(super) fn between(&self, [lo, hi]: [f64; 2]) -> N {
+        self.line.exact(0.0).between(lo, hi)
+    }
+
     /// F(t).
     pub(super) fn value(&mut self, t: f64) -> N {
         self.work.intervals += 1;
@@ -98,11 +105,18 @@ impl<'a, N: Outward> Curve<'a, N> {
         value
     }
 
-    /// The sign of F(t). Of a function that may be undefined, 0 is never certain.
+    /// The sign of F(t): it is 0 only where F is certainly defined.
     pub(super) fn sign(&mut self, t: f64) -> Sign {
-        match (self.value(t).sign(), &self.form) {
-            (Sign::Zero, Form::Smooth(_)) => Sign::Unknown,
-            (sign, _) => sign,
+        let sign = self.value(t).sign();
+        match &mut self.form {
+            Form::Smooth(taylor) if sign == Sign::Zero => {
+                if taylor.is_defined(&self.coarse, t) {
+                    sign
+                } else {
+                    Sign::Unknown
+                }
+            }
+            _ => sign,
         }
     }
 
@@ -110,6 +124,19 @@ impl<'a, N: Outward> Curve<'a, N> {
     pub(super) fn slope(&mut self, ends: [f64; 2]) -> N {
         self.work.intervals += 1;
         slope(&mut self.slopes, &self.line, ends)
+    }
+
+    /// Do expansions have no remainder?
+    pub(super) fn is_polynomial(&self) -> bool {
+        matches!(self.form, Form::Polynomial(_))
+    }
+
+    /// What an expansion costs, in pieces that are merely split.
+    pub(super) fn cost(&self) -> u32 {
+        match self.form {
+            Form::Polynomial(_) => 1 + self.degree * self.degree / 32,
+            Form::Smooth(_) => 1,
+        }
     }
 
     /// What is known of F between two t.

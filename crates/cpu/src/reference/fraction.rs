@@ -85,6 +85,8 @@ impl<N: Number> Mul for Fraction<N> {
 
 impl<N: Number> Div for Fraction<N> {
     type Output = Self;
+    // Dividing by a fraction multiplies by its denominator.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     fn div(self, other: Self) -> Self {
         let numerator = match other.denominator {
             None => self.numerator,

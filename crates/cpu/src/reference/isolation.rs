@@ -1,15 +1,15 @@
 //! The first root of a ray polynomial, isolated exactly.
 
-use zeroset_expr::{Evaluator, Tape};
-use zeroset_raycast::{Ray, Work};
+use zeroset_raycast::{Domain, Ray, Work};
 
-use super::exact::Exact;
-use super::search::{Found, Goal, Ladder, Place, Rung, climb};
-use super::sturm::{Chain, Dyadic, Polynomial};
+use super::exact::ExactTape;
+use super::ladder::{Found, Goal, Isolated, Ladder, Place, Rung, climb, climb_with};
+use super::sturm::{Chain, Point, Polynomial};
 
-/// Sturm's theorem on the exact ray polynomial, for functions with rational coefficients.
+/// Sturm's theorem on the exact ray polynomial.
 pub(super) struct Isolation<'a> {
-    evaluator: Evaluator<'a, Exact>,
+    tape: &'a ExactTape,
+    domain: Domain,
     ray: Option<Ray>,
     roots: Option<Roots>,
     work: Work,
@@ -21,7 +21,7 @@ enum Roots {
     All,
     /// Its distinct roots, and those of them that are multiple.
     Some { distinct: Counter, multiple: Counter },
-    /// It is not exact, or too large.
+    /// It is too large.
     Unknown,
 }
 
@@ -34,18 +34,13 @@ struct Counter {
 const MAX_SIZE: u64 = 10_000_000;
 
 impl<'a> Isolation<'a> {
-    pub(super) fn new(tape: &'a Tape) -> Self {
-        let evaluator = tape.evaluator(&Exact::line(0.0, 0.0));
-        Self { evaluator, ray: None, roots: None, work: Work::default() }
+    pub(super) fn new(tape: &'a ExactTape, domain: Domain) -> Self {
+        Self { tape, domain, ray: None, roots: None, work: Work::default() }
     }
 
-    fn isolate(&mut self) -> Roots {
-        let Some(ray) = self.ray else { return Roots::Unknown };
+    fn isolate(&mut self, ray: Ray) -> Roots {
         self.work.intervals += 1;
-        let line = |axis| Exact::line(f64::from(ray.origin[axis]), f64::from(ray.direction[axis]));
-        let Some(p) = self.evaluator.evaluate([line(0), line(1), line(2)]).polynomial() else {
-            return Roots::Unknown;
-        };
+        let p = self.tape.polynomial(ray);
         if p.is_zero() {
             return Roots::All;
         }
@@ -66,42 +61,69 @@ impl Counter {
     }
 
     /// The number of roots in `[a, b]`.
-    fn count(&self, [a, b]: [f64; 2]) -> usize {
-        let [a, b] = [a, b].map(Dyadic::new);
-        usize::from(self.polynomial.sign_at(&a) == 0) + self.chain.count(&a, &b)
+    fn count(&self, a: &Point, b: &Point) -> usize {
+        if a > b {
+            return 0;
+        }
+        usize::from(self.polynomial.sign_at(a) == 0) + self.chain.count(a, b)
     }
 }
 
-/// The first of the distinct roots in a range.
-fn first(distinct: &Counter, multiple: &Counter, range: [f64; 2], goal: &Goal) -> Found {
-    let mut bracket = range;
-    if distinct.count(bracket) == 0 {
+/// The part of a ray in a box, exactly; doubles bound the part that is asked for.
+struct Span([Point; 2]);
+
+impl Span {
+    fn new(domain: &Domain, ray: Ray, [lo, hi]: [f64; 2]) -> Self {
+        let [mut lo, mut hi] = [Point::new(lo), Point::new(hi)];
+        for axis in 0..3 {
+            let direction = ray.direction[axis];
+            if direction == 0.0 {
+                continue;
+            }
+            let origin = Point::new(f64::from(ray.origin[axis]));
+            let at = |bound: f64| {
+                Point::new(bound).difference_over(&origin, &Point::new(f64::from(direction)))
+            };
+            let (enter, leave) = (at(domain.min[axis]), at(domain.max[axis]));
+            let (enter, leave) = if direction > 0.0 { (enter, leave) } else { (leave, enter) };
+            lo = lo.max(enter);
+            hi = hi.min(leave);
+        }
+        Self([lo, hi])
+    }
+
+    /// The number of roots in the part of the bracket that counts.
+    fn count(&self, counter: &Counter, [a, b]: [f64; 2]) -> usize {
+        let [lo, hi] = &self.0;
+        counter.count(lo.max(&Point::new(a)), hi.min(&Point::new(b)))
+    }
+}
+
+/// The first of the distinct roots in a bracket, which is narrowed.
+fn first(
+    [distinct, multiple]: [&Counter; 2],
+    span: &Span,
+    mut bracket: [f64; 2],
+    place: impl Fn([f64; 2]) -> Place,
+    goal: &Goal,
+) -> Found {
+    let count = |bracket| span.count(distinct, bracket);
+    if count(bracket) == 0 {
         return Found::Nothing;
     }
-    loop {
+    while !(goal.is_met(bracket) && count(bracket) == 1 && place(bracket) != Place::Edge) {
         let [a, b] = bracket;
-        let alone = distinct.count(bracket) == 1;
-        let place = goal.place(bracket);
-        if goal.is_met(bracket) && alone && place != Place::Edge {
-            break;
-        }
         let m = 0.5 * a + 0.5 * b;
-        if !(a < m && m < b) {
-            if a < b {
-                // Neighbouring doubles: the root may be one of them.
-                let end = if distinct.count([a, a]) == 1 { a } else { b };
-                if distinct.count([end, end]) == 1 && distinct.count([a, end]) == 1 {
-                    bracket = [end, end];
-                }
-            }
-            break;
+        let parts = if a < m && m < b { [[a, m], [m, b]] } else { [[a, a], [b, b]] };
+        match parts.into_iter().find(|&part| part != bracket && count(part) > 0) {
+            Some(part) => bracket = part,
+            None => break,
         }
-        bracket = if distinct.count([a, m]) > 0 { [a, m] } else { [m, b] };
     }
-    match goal.place(bracket) {
+    match place(bracket) {
         Place::Outside => Found::Nothing,
         Place::Edge => Found::Stuck(bracket),
-        Place::Inside if distinct.count(bracket) == 1 && multiple.count(bracket) == 0 => {
+        Place::Inside if count(bracket) == 1 && span.count(multiple, bracket) == 0 => {
             Found::Simple(bracket)
         }
         Place::Inside => Found::Multiple(bracket),
@@ -119,21 +141,41 @@ impl Rung for Isolation<'_> {
         self.work
     }
 
+    fn narrow(&mut self, root: Isolated, goal: &Goal, higher: &mut Ladder<'_>) -> Found {
+        match self.search(root.bracket, goal, &mut []) {
+            Found::Stuck(_) => climb_with(higher, root, goal),
+            found => found,
+        }
+    }
+
     fn search(&mut self, range: [f64; 2], goal: &Goal, higher: &mut Ladder<'_>) -> Found {
+        let Some(ray) = self.ray else { return Found::Stuck(range) };
         let roots = match self.roots.take() {
             Some(roots) => roots,
-            None => self.isolate(),
+            None => self.isolate(ray),
         };
         let found = match &roots {
             Roots::Unknown => climb(higher, range, goal).unwrap_or(Found::Stuck(range)),
-            Roots::Some { distinct, multiple } => first(distinct, multiple, range, goal),
+            Roots::Some { distinct, multiple } => {
+                let span = Span::new(&self.domain, ray, range);
+                // Of a box the span is exact; whether a ball is left has been enclosed.
+                let place = |bracket| match self.domain.ball {
+                    None => Place::Inside,
+                    Some(_) => goal.place(bracket),
+                };
+                first([distinct, multiple], &span, range, place, goal)
+            }
             Roots::All => {
                 // Every t is a root, the first where the domain begins.
-                let start =
-                    |inner: [f64; 2]| Some(inner[0].max(range[0])).filter(|&t| t <= inner[1]);
-                match goal.clip.inner.and_then(start) {
-                    Some(t) => Found::Multiple([range[0], t]),
-                    None => Found::Stuck(range),
+                let Span([start, end]) = Span::new(&self.domain, ray, range);
+                let begins = goal.clip.inner.map_or(range[1], |inner| inner[0].max(range[0]));
+                let bracket = [range[0], begins];
+                if start > end && self.domain.ball.is_none() {
+                    Found::Nothing
+                } else if goal.is_met(bracket) && begins <= range[1] {
+                    Found::Multiple(bracket)
+                } else {
+                    Found::Stuck(range)
                 }
             }
         };

@@ -1,13 +1,25 @@
 //! The reference: slow, and trusted because it proves what it says.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `prepared` | the reference for one scene: a ladder of searches for each ray |
+//! | `ladder` | what searches have in common; one that is too coarse asks those above |
+//! | `bisection` | the search in intervals of one precision |
+//! | `curve` | F along a ray: values, slopes, expansions |
+//! | `bernstein`, `taylor` | expansions of polynomials, of other functions |
+//! | `fraction` | quotients that know a pole from a root |
+//! | `isolation`, `exact`, `sturm` | the search in exact arithmetic |
+//! | `outward` | what all this needs of an interval |
 
 mod bernstein;
+mod bisection;
 mod curve;
 mod exact;
 mod fraction;
 mod isolation;
+mod ladder;
 mod outward;
 mod prepared;
-mod search;
 mod sturm;
 mod taylor;
 
@@ -22,25 +34,29 @@ pub use prepared::PreparedReference;
 /// Encloses the first root of F(t) = f(o + t d) in outward arithmetic, or proves that there is none.
 ///
 /// A range of t is bisected, the part with small t first, until F or F' is proven to have one sign
-/// on each piece; a sign change of a continuous, monotone F is a root, narrowed by interval Newton.
+/// on each piece T. A sign change of a continuous, monotone F is a root, narrowed by interval Newton:
+/// `T := T and m - F(m) / F'(T)`, m the midpoint.
+///
 /// - A polynomial F is expanded exactly in Bernstein form, any other F in Taylor form with an
 ///   enclosed remainder.
-/// - What double precision cannot decide is repeated with 128 bits, then, for polynomials with
-///   rational coefficients, by exact arithmetic and Sturm's theorem, then with ever more bits.
+/// - What double precision cannot decide is repeated with 128 bits, then, for polynomials whose
+///   constants are binary fractions, by exact arithmetic and Sturm's theorem, then with ever more
+///   bits.
 /// - What is still open is said to be undecidable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     /// Width in t of the bracket of a root, or four units in the last place of t if that is wider.
     pub width: f64,
-    /// The most bits of the significand; 53 is double precision alone.
+    /// The most bits of the significand; below 128 there is double precision and exact arithmetic only.
     pub bits: u32,
-    /// The most pieces of a ray looked at in double precision, and, a sixteenth of it, in each higher one.
+    /// The most pieces of a ray looked at in double precision (an expansion of degree n counts
+    /// n^2/32 more); an eighth of it in each higher precision.
     pub budget: u32,
 }
 
 impl Default for Reference {
     fn default() -> Self {
-        Self { width: 1e-12, bits: 512, budget: 8192 }
+        Self { width: 1e-12, bits: 512, budget: 2048 }
     }
 }
 
@@ -136,7 +152,7 @@ impl Method for Reference {
             Knob {
                 name: "budget",
                 value: self.budget.to_string(),
-                doc: "the most pieces of a ray looked at in double precision (8192)",
+                doc: "the most pieces of a ray looked at in double precision (2048)",
             },
         ]
     }

@@ -8,11 +8,12 @@ use zeroset_raycast::{
     Work,
 };
 
+use super::bisection::Bisection;
 use super::curve::Curve;
-use super::exact;
+use super::exact::ExactTape;
 use super::isolation::Isolation;
+use super::ladder::{Found, Goal, Ladder, Rung, climb};
 use super::outward::Double;
-use super::search::{Bisection, Found, Goal, Ladder, Rung, climb};
 use super::{Class, Reference, Truth};
 use crate::implicit::Implicit;
 use crate::{normals, tiles};
@@ -20,7 +21,7 @@ use crate::{normals, tiles};
 /// The precisions above double: 128 bits, doubled up to the most that is allowed.
 const FIRST_BITS: u32 = 128;
 /// By how much fewer pieces are looked at in those.
-const BUDGET_DIVISOR: u32 = 16;
+const BUDGET_DIVISOR: u32 = 8;
 /// Rays that share one set of evaluators.
 const CHUNK: usize = 64;
 
@@ -39,8 +40,8 @@ struct Tapes {
     double: Tape,
     /// With the bits of each.
     finer: Vec<(u32, Tape)>,
-    /// Are its constants rational, and known?
-    rational: bool,
+    /// If it is a polynomial whose constants are binary fractions.
+    exact: Option<ExactTape>,
 }
 
 impl Tapes {
@@ -52,8 +53,8 @@ impl Tapes {
             finer.push((bits, function.tape(values, bits as usize)?));
             bits *= 2;
         }
-        let rational = double.constants().iter().all(|c| exact::rational(c).is_some());
-        Ok(Self { double, finer, rational })
+        let exact = ExactTape::new(&double);
+        Ok(Self { double, finer, exact })
     }
 }
 
@@ -104,8 +105,8 @@ impl PreparedReference {
             let curve = Curve::new(tape, degree, &zero);
             ladder.push(Box::new(Bisection::new(curve, budget.div_ceil(BUDGET_DIVISOR))));
         }
-        if degree.is_some() && self.tapes.rational {
-            ladder.insert(ladder.len().min(2), Box::new(Isolation::new(&self.tapes.double)));
+        if let Some(exact) = &self.tapes.exact {
+            ladder.insert(ladder.len().min(2), Box::new(Isolation::new(exact, self.domain)));
         }
         ladder
     }

@@ -1,5 +1,7 @@
 //! Real roots of polynomials with integer coefficients, counted exactly.
 
+use std::cmp::Ordering;
+
 use num_bigint::{BigInt, Sign};
 use num_traits::{One, Signed, Zero};
 
@@ -7,14 +9,15 @@ use num_traits::{One, Signed, Zero};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Polynomial(Vec<BigInt>);
 
-/// `numerator / 2^exponent`.
+/// A rational number.
 #[derive(Clone, Debug)]
-pub(super) struct Dyadic {
+pub(super) struct Point {
     numerator: BigInt,
-    exponent: u64,
+    /// Positive.
+    denominator: BigInt,
 }
 
-impl Dyadic {
+impl Point {
     /// The exact value of a finite double.
     pub(super) fn new(x: f64) -> Self {
         let bits = x.abs().to_bits();
@@ -24,20 +27,46 @@ impl Dyadic {
             biased => (fraction | 1 << 52, biased - 1075),
         };
         let zeros = if mantissa == 0 { 0 } else { i64::from(mantissa.trailing_zeros()) };
+        let shift = |n: BigInt, by: i64| n << by.max(0).unsigned_abs();
+        let mantissa = BigInt::from(mantissa >> zeros) * if x < 0.0 { -1 } else { 1 };
         let exponent = exponent + zeros;
-        let mut numerator = BigInt::from(mantissa >> zeros);
-        if x < 0.0 {
-            numerator = -numerator;
-        }
-        if exponent > 0 {
-            numerator <<= exponent.unsigned_abs();
-        }
-        Self { numerator, exponent: (-exponent).max(0).unsigned_abs() }
+        Self { numerator: shift(mantissa, exponent), denominator: shift(BigInt::one(), -exponent) }
     }
 
     /// Numerator and denominator.
-    pub(super) fn parts(&self) -> (BigInt, BigInt) {
-        (self.numerator.clone(), BigInt::one() << self.exponent)
+    pub(super) fn parts(self) -> (BigInt, BigInt) {
+        (self.numerator, self.denominator)
+    }
+
+    /// `(self - other) / divisor`, for a divisor that is not 0.
+    pub(super) fn difference_over(&self, other: &Self, divisor: &Self) -> Self {
+        let difference =
+            &self.numerator * &other.denominator - &other.numerator * &self.denominator;
+        let sign = divisor.numerator.signum();
+        Self {
+            numerator: difference * &divisor.denominator * sign,
+            denominator: &self.denominator * &other.denominator * divisor.numerator.abs(),
+        }
+    }
+}
+
+impl PartialEq for Point {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Point {}
+
+impl PartialOrd for Point {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Point {
+    fn cmp(&self, other: &Self) -> Ordering {
+        (&self.numerator * &other.denominator).cmp(&(&other.numerator * &self.denominator))
     }
 }
 
@@ -129,12 +158,12 @@ impl Polynomial {
     }
 
     /// The sign at a point: -1, 0 or 1.
-    pub(super) fn sign_at(&self, x: &Dyadic) -> i32 {
+    pub(super) fn sign_at(&self, x: &Point) -> i32 {
         let mut value = BigInt::zero();
-        let mut shift = 0;
+        let mut scale = BigInt::one();
         for c in self.0.iter().rev() {
-            value = value * &x.numerator + (c << shift);
-            shift += x.exponent;
+            value = value * &x.numerator + c * &scale;
+            scale *= &x.denominator;
         }
         match value.sign() {
             Sign::Minus => -1,
@@ -169,11 +198,11 @@ impl Chain {
     }
 
     /// The number of roots in `(a, b]`.
-    pub(super) fn count(&self, a: &Dyadic, b: &Dyadic) -> usize {
+    pub(super) fn count(&self, a: &Point, b: &Point) -> usize {
         self.variations(a).saturating_sub(self.variations(b))
     }
 
-    fn variations(&self, x: &Dyadic) -> usize {
+    fn variations(&self, x: &Point) -> usize {
         let mut signs = self.0.iter().map(|p| p.sign_at(x)).filter(|&s| s != 0);
         let mut last = signs.next().unwrap_or(0);
         let mut count = 0;
@@ -194,15 +223,17 @@ mod tests {
     }
 
     #[test]
-    fn doubles_are_dyadic() {
+    fn doubles_are_exact() {
         for x in [0.0, 1.0, -0.75, 3e-300, -5e-324, 1e300, 2f64.powi(60)] {
-            let (n, d) = Dyadic::new(x).parts();
+            let (n, d) = Point::new(x).parts();
             // n is exact in a double unless the shift was upwards; compare crosswise.
             let back: f64 =
                 n.to_string().parse::<f64>().unwrap() / d.to_string().parse::<f64>().unwrap();
             assert!(back == x || d.bits() > 1000, "{x} {back}");
         }
-        assert_eq!(Dyadic::new(-0.75).parts(), (BigInt::from(-3), BigInt::from(4)));
+        assert_eq!(Point::new(-0.75).parts(), (BigInt::from(-3), BigInt::from(4)));
+        let third = Point::new(1.5).difference_over(&Point::new(2.0), &Point::new(-1.5));
+        assert!(Point::new(0.333) < third && third < Point::new(0.334));
     }
 
     #[test]
@@ -224,10 +255,10 @@ mod tests {
         let simple = p.quotient(&multiple);
         assert_eq!(simple.degree(), 3);
         for (root, other) in [(1.0, 0), (-2.0, 0), (3.0, 0), (0.0, 1)] {
-            assert_eq!(simple.sign_at(&Dyadic::new(root)) == 0, other == 0);
+            assert_eq!(simple.sign_at(&Point::new(root)) == 0, other == 0);
         }
         let chain = Chain::new(&simple);
-        let count = |a, b| chain.count(&Dyadic::new(a), &Dyadic::new(b));
+        let count = |a, b| chain.count(&Point::new(a), &Point::new(b));
         assert_eq!(count(-10.0, 10.0), 3);
         assert_eq!(count(-10.0, -2.0), 1);
         assert_eq!(count(-2.0, 1.0), 1);

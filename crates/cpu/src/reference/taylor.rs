@@ -1,7 +1,7 @@
 //! Taylor expansions with enclosed remainders.
 
 use zeroset_expr::{Evaluator, Tape};
-use zeroset_ia::{Decorated, Jet};
+use zeroset_ia::{Decorated, Decoration, Jet};
 
 use super::bernstein;
 use super::curve::{Expansion, Line};
@@ -27,6 +27,12 @@ impl<'a, N: Outward> Taylor<'a, N> {
             fractions: tape.evaluator(&Fraction::new(zero)),
             jets: tape.evaluator(&Jet::constant_value(context.clone(), 0)),
         }
+    }
+
+    /// Is F certainly defined at t?
+    pub(super) fn is_defined(&mut self, coarse: &Line<Double>, t: f64) -> bool {
+        let point = coarse.at(Double::point(t)).map(Decorated::new);
+        self.ranges.evaluate(point).decoration >= Decoration::Defined
     }
 
     /// What is known of F between two t; `slope` encloses its slopes there, kinks included.

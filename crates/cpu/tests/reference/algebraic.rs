@@ -51,21 +51,37 @@ fn mitchell() {
 fn planes_close_together() {
     // A ray crosses them one after the other; many rays on quarters meet where two intersect.
     let equation = "(x-1/4)*(x-1/2)*(x-3/4)*(y-1/4)*(y+1/4)*(x+y-z)";
-    let tally = check(equation, 1.0, 400, |[x, y, z]| {
+    let mut batch = RayBatch::new(rays(&mut Noise(32), 1.0, 300));
+    for k in -8..9 {
+        let meeting = Vec3::new(0.25, 0.25, k as f32 / 8.0);
+        for d in [Vec3::new(0.5, 1.0, 0.25), Vec3::new(-1.0, 0.25, 0.0)] {
+            batch.rays.push(Ray::new(meeting - 3.0 * d, d));
+        }
+    }
+    let tally = judge(equation, 1.0, &batch, |[x, y, z]| {
         let less = |v: &Poly, n| v - &Poly::number(fraction(n, 4));
         let in_x = &(&less(&x, 1) * &less(&x, 2)) * &less(&x, 3);
         let in_y = &less(&y, 1) * &less(&y, -1);
         &(&in_x * &in_y) * &(&(&x + &y) - &z)
     });
     assert_eq!(tally.undecidable, 0);
-    assert!(tally.tangential > 10, "{tally:?}");
+    assert!(tally.tangential >= 3, "{tally:?}");
 }
 
 #[test]
 fn double_planes() {
     // Along x = 0, 4 z^2 x^2 - (1 - z^2) y^2 and higher terms: the miter's double line.
     let equation = "4*x^2*(x^2+y^2+z^2)-y^2*(1-y^2-z^2)";
-    let tally = check(equation, 1.0, 400, |[x, y, z]| {
+    let mut batch = RayBatch::new(rays(&mut Noise(31), 1.0, 200));
+    // Rays that pass the line x = y = 0, at a height that they have to compute.
+    for k in -8..9 {
+        let height = k as f32 / 8.0;
+        for slope in [-0.5, 0.0, 0.75] {
+            let d = Vec3::new(0.5, -0.25, slope);
+            batch.rays.push(Ray::new(Vec3::new(0.0, 0.0, height) - 3.0 * d, d));
+        }
+    }
+    let tally = judge(equation, 1.0, &batch, |[x, y, z]| {
         let [x2, y2, z2] = [x, y, z].map(|v| v.pow(2));
         let first = (&x2 * &(&(&x2 + &y2) + &z2)).times(4);
         &first - &(&y2 * &(&(&Poly::integer(1) - &y2) - &z2))
@@ -80,7 +96,7 @@ fn squares_never_change_sign() {
         (&sum(p.map(|v| v.pow(2))) - &Poly::integer(1)).pow(2)
     });
     assert_eq!([tally.undecidable, tally.transversal], [0, 0], "{tally:?}");
-    assert!(tally.tangential > 100, "{tally:?}");
+    assert!(tally.tangential > 50, "{tally:?}");
 }
 
 #[test]

@@ -135,6 +135,39 @@ fn plane() {
     }
 }
 
+#[test]
+fn plane_in_a_ball() {
+    let mut scene = scene("x-1/2", 1.0);
+    scene.domain.ball = Some(0.75);
+    let mut batch = RayBatch::new(rays(&mut Noise(5), 1.0, 1000));
+    // Through the rim, where the plane leaves the ball: x = 1/2, y^2 + z^2 = 5/16.
+    let rim = |y: f32| Ray::new(Vec3::new(-0.5, y, 0.25), Vec3::X);
+    batch.rays.extend([rim(0.5), rim(0.5_f32.next_up()), rim(0.5_f32.next_down())]);
+    let mut hits = 0;
+    for (ray, truth) in batch.rays.iter().zip(classify(&scene, &batch)) {
+        let says = format!("{ray:?} {truth:?}");
+        let (o, d) = (vector(ray.origin), vector(ray.direction));
+        if d[0].is_zero() {
+            continue;
+        }
+        let t = (fraction(1, 2) - &o[0]) / &d[0];
+        let p = [0, 1, 2].map(|i| &o[i] + &d[i] * &t);
+        let outside = dot(&p, &p) - fraction(9, 16);
+        let counts = !t.is_negative() && !outside.is_positive();
+        let near = outside.abs() < exact(1e-10);
+        match truth.class {
+            Class::None => assert!(!counts, "{says}"),
+            Class::Undecidable => assert!(near && exact(truth.bracket[0]) <= t, "{says}"),
+            _ => {
+                let [l, h] = truth.bracket.map(exact);
+                assert!(counts && l <= t && t <= h, "{says}");
+                hits += 1;
+            }
+        }
+    }
+    assert!(hits > 50, "{hits}");
+}
+
 /// The torus with radii 1 and 1/2 about z, as a quartic in t with textbook coefficients.
 fn torus([x, y, z]: [Poly; 3]) -> Poly {
     let part = |p: &Poly, i: usize| p.0.get(i).cloned().unwrap_or_else(Q::zero);

@@ -128,6 +128,7 @@ fn jumps_are_no_roots() {
         "mod(x,1)-x-1/2",
         "atan2(x,-1)",
         "x-2*floor(x+1)+7/8",
+        "x+2*floor(x+1)-7/8",
     ] {
         for truth in classify(&scene(equation, 0.875), &batch) {
             assert!(
@@ -137,11 +138,14 @@ fn jumps_are_no_roots() {
             assert!(truth.class == Class::None || truth.bracket[0] <= 2.5, "{equation} {truth:?}");
         }
     }
-    // Between its jumps a step function can have honest roots.
-    let truth = classify(&scene("floor(4*x)/4-2*x+1/3", 1.0), &batch)[0];
-    let root = 0.75 + 1.0 / 6.0;
-    assert_eq!(truth.class, Class::Transversal, "{truth:?}");
-    assert!((truth.bracket[0] - root).abs() < 1e-11, "{truth:?}");
+    // Between jumps, and before one that a smooth continuation would not see, are honest roots.
+    for (equation, root) in
+        [("floor(4*x)/4-2*x+1/3", 0.75 + 1.0 / 6.0), ("x+1/2+2*floor(x+1)", 0.25)]
+    {
+        let truth = classify(&scene(equation, 1.0), &batch)[0];
+        assert_eq!(truth.class, Class::Transversal, "{equation} {truth:?}");
+        assert!((truth.bracket[0] - root).abs() < 1e-11, "{equation} {truth:?}");
+    }
 }
 
 #[test]

@@ -1,99 +1,16 @@
 //! The search for the first root, from small t to large.
 
-use zeroset_raycast::{Clip, Ray, Work};
+use zeroset_raycast::{Ray, Work};
 
 use super::bernstein;
 use super::curve::{Curve, Expansion};
+use super::ladder::{Found, Goal, Isolated, Ladder, Place, Rung, climb, climb_with, spacing};
 use super::outward::{Outward, Sign};
-
-/// What a search found in a range of t.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Found {
-    /// There is no root that counts.
-    Nothing,
-    /// The first root lies here alone, and F' does not vanish there.
-    Simple([f64; 2]),
-    /// The first root lies here, and may be multiple, or more than one.
-    Multiple([f64; 2]),
-    /// The first root does not lie before this; nothing else is known.
-    Stuck([f64; 2]),
-}
-
-/// Where roots count, and how narrow their enclosures shall be.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Goal {
-    pub(super) clip: Clip,
-    /// Of the pieces that the ray is cut into, at least.
-    pub(super) resolution: f64,
-    /// Of the bracket of a root, at most.
-    pub(super) width: f64,
-}
-
-/// Where a root in a bracket lies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Place {
-    Inside,
-    Outside,
-    Edge,
-}
-
-impl Goal {
-    pub(super) fn place(&self, [lo, hi]: [f64; 2]) -> Place {
-        let Clip { outer, inner } = self.clip;
-        if hi < outer[0] || outer[1] < lo {
-            Place::Outside
-        } else if inner.is_some_and(|inner| inner[0] <= lo && hi <= inner[1]) {
-            Place::Inside
-        } else {
-            Place::Edge
-        }
-    }
-
-    /// Is the bracket narrow enough?
-    pub(super) fn is_met(&self, bracket: [f64; 2]) -> bool {
-        is_within(bracket, self.width)
-    }
-
-    /// Is the piece too narrow to be cut?
-    fn is_resolved(&self, piece: [f64; 2]) -> bool {
-        is_within(piece, self.resolution)
-    }
-}
-
-/// Is it at most so wide, or four units in the last place?
-fn is_within([lo, hi]: [f64; 2], width: f64) -> bool {
-    hi - lo <= width.max(4.0 * spacing(lo, hi))
-}
-
-/// The distance between the doubles near the larger of two.
-fn spacing(a: f64, b: f64) -> f64 {
-    let t = a.abs().max(b.abs());
-    t.next_up() - t
-}
-
-/// A search in some arithmetic; where that is too coarse, it asks the rungs above.
-pub(super) trait Rung {
-    /// Turns to another ray.
-    fn aim(&mut self, ray: Ray);
-    /// The first root in the range. There is none before it that counts.
-    fn search(&mut self, range: [f64; 2], goal: &Goal, higher: &mut Ladder<'_>) -> Found;
-    /// What the ray has cost.
-    fn work(&self) -> Work;
-}
-
-/// Rungs in the order of their cost.
-pub(super) type Ladder<'a> = [Box<dyn Rung + 'a>];
-
-/// Asks the lowest rung, if there is one.
-pub(super) fn climb(ladder: &mut Ladder<'_>, range: [f64; 2], goal: &Goal) -> Option<Found> {
-    let (rung, higher) = ladder.split_first_mut()?;
-    Some(rung.search(range, goal, higher))
-}
 
 /// Bisection with derivative tests, then interval Newton.
 pub(super) struct Bisection<'a, N: Outward> {
     curve: Curve<'a, N>,
-    /// Pieces to look at for each ray.
+    /// Pieces to look at for each ray, weighted by the cost of expansions.
     budget: u32,
     left: u32,
 }
@@ -111,12 +28,49 @@ enum Verdict<N> {
     Free,
     /// F' is enclosed, and has one sign.
     Monotone(N),
+    /// Smaller pieces may tell.
     Open,
+    /// Rounding hides F, and will on smaller pieces.
+    Blurred,
+}
+
+enum Step {
+    /// Nothing, or the first root.
+    Done(Found),
+    /// Its left part, then its right part.
+    Cut(Split),
+    /// What the rungs above say.
+    Ask,
 }
 
 impl<'a, N: Outward> Bisection<'a, N> {
     pub(super) fn new(curve: Curve<'a, N>, budget: u32) -> Self {
         Self { curve, budget, left: budget }
+    }
+
+    /// What to do with the next piece.
+    fn step(&mut self, piece: &mut Piece<N>, goal: &Goal, higher: &mut Ladder<'_>) -> Step {
+        if self.left == 0 {
+            return Step::Ask;
+        }
+        self.left -= 1;
+        match self.judge(piece) {
+            Verdict::Free => return Step::Done(Found::Nothing),
+            Verdict::Monotone(slope) => {
+                if let Some(found) = self.cross(piece, &slope, goal, higher) {
+                    return Step::Done(found);
+                }
+            }
+            Verdict::Blurred if !higher.is_empty() => return Step::Ask,
+            Verdict::Blurred | Verdict::Open => {}
+        }
+        if goal.is_resolved(piece.ends) {
+            return Step::Ask;
+        }
+        match self.split_point(piece.ends) {
+            Some(split) if split.sign != Sign::Unknown || higher.is_empty() => Step::Cut(split),
+            _ => Step::Ask,
+        }
     }
 
     fn judge(&mut self, piece: &mut Piece<N>) -> Verdict<N> {
@@ -127,11 +81,16 @@ impl<'a, N: Outward> Bisection<'a, N> {
             }
         }
         piece.terms = None;
+        self.left = self.left.saturating_sub(self.curve.cost());
         match self.curve.expand(piece.ends) {
             Expansion::Free => Verdict::Free,
             Expansion::Open => Verdict::Open,
             Expansion::Terms(terms) => {
-                let verdict = verdict(&terms, piece.ends);
+                let blurred = self.curve.is_polynomial() && bernstein::is_blurred(&terms);
+                let verdict = match verdict(&terms, piece.ends) {
+                    Verdict::Open if blurred => Verdict::Blurred,
+                    verdict => verdict,
+                };
                 piece.terms = Some(terms);
                 verdict
             }
@@ -140,52 +99,58 @@ impl<'a, N: Outward> Bisection<'a, N> {
 
     /// The root in a piece on which F is continuous and F' has one sign; `None` if it is not certain
     /// whether there is one.
-    fn cross(&mut self, piece: &Piece<N>, slope: N, goal: &Goal) -> Option<Found> {
+    fn cross(
+        &mut self,
+        piece: &Piece<N>,
+        slope: &N,
+        goal: &Goal,
+        higher: &mut Ladder<'_>,
+    ) -> Option<Found> {
         let [a, b] = piece.ends;
-        let rising = slope.sign() == Sign::Positive;
+        let slope = slope.bounds();
+        if !excludes_zero(slope) {
+            return None;
+        }
+        let rising = slope[0] > 0.0;
         let bracket = match (rising, piece.signs) {
             (true, [Sign::Positive, _] | [_, Sign::Negative])
             | (false, [Sign::Negative, _] | [_, Sign::Positive]) => return Some(Found::Nothing),
             (_, [Sign::Zero, _]) => [a, a],
             (_, [_, Sign::Zero]) => [b, b],
-            (_, signs) if signs[0].opposes(signs[1]) => {
-                self.refine(piece.ends, signs[0], slope, goal)
-            }
+            (_, signs) if signs[0].opposes(signs[1]) => piece.ends,
             _ => return None,
         };
-        Some(match goal.place(bracket) {
-            Place::Outside => Found::Nothing,
-            Place::Inside if goal.is_met(bracket) => Found::Simple(bracket),
-            _ => Found::Stuck(bracket),
-        })
+        Some(self.narrow(Isolated { bracket, slope }, goal, higher))
     }
 
     /// Interval Newton, `m - F(m) / F'([a, b])`, until the bracket is narrow or stays as it is.
-    fn refine(&mut self, ends: [f64; 2], sign: Sign, mut slope: N, goal: &Goal) -> [f64; 2] {
-        let [mut a, mut b] = ends;
+    fn refine(&mut self, root: Isolated, goal: &Goal) -> Isolated {
+        let Isolated { bracket: [mut a, mut b], mut slope } = root;
+        let rising = slope[0] > 0.0;
         loop {
-            let done = goal.is_met([a, b]) && goal.place([a, b]) != Place::Edge;
+            let root = Isolated { bracket: [a, b], slope };
             let m = 0.5 * a + 0.5 * b;
-            if done || !(a < m && m < b) {
-                return [a, b];
+            if root.found(goal).is_some() || !(a < m && m < b) {
+                return root;
             }
             let before = b - a;
             let value = self.curve.value(m);
             match value.sign() {
-                Sign::Zero => return [m, m],
-                s if s == sign => a = m,
-                s if s.opposes(sign) => b = m,
-                _ => {}
+                Sign::Zero => return Isolated { bracket: [m, m], ..root },
+                Sign::Negative if rising => a = m,
+                Sign::Positive if !rising => a = m,
+                Sign::Negative | Sign::Positive => b = m,
+                Sign::Unknown | Sign::Undefined => {}
             }
-            let [lo, hi] = (value / slope.clone()).bounds();
+            let [lo, hi] = (value / self.curve.between(slope)).bounds();
             a = a.max((m - hi).next_down());
             b = b.min((m - lo).next_up());
             if !(b - a < 0.75 * before) {
-                return [a, b];
+                return Isolated { bracket: [a, b], ..root };
             }
             if !goal.is_met([a, b]) {
-                let fresh = self.curve.slope([a, b]);
-                if matches!(fresh.sign(), Sign::Positive | Sign::Negative) {
+                let fresh = self.curve.slope([a, b]).bounds();
+                if excludes_zero(fresh) {
                     slope = fresh;
                 }
             }
@@ -210,6 +175,10 @@ impl<'a, N: Outward> Bisection<'a, N> {
         }
         fallback
     }
+}
+
+fn excludes_zero([lo, hi]: [f64; 2]) -> bool {
+    lo > 0.0 || hi < 0.0
 }
 
 #[derive(Clone, Copy)]
@@ -243,7 +212,7 @@ impl<N: Outward> Piece<N> {
         certain.then_some(Found::Multiple(bracket))
     }
 
-    fn halves(self, split: Split) -> [Self; 2] {
+    fn cut(self, split: Split) -> [Self; 2] {
         let [a, b] = self.ends;
         let [left, right] = match self.terms {
             Some(terms) => bernstein::split(terms, split.eighths).map(Some),
@@ -277,6 +246,11 @@ impl<N: Outward> Rung for Bisection<'_, N> {
         self.curve.work
     }
 
+    fn narrow(&mut self, root: Isolated, goal: &Goal, higher: &mut Ladder<'_>) -> Found {
+        let root = self.refine(root, goal);
+        root.found(goal).unwrap_or_else(|| climb_with(higher, root, goal))
+    }
+
     fn search(&mut self, range: [f64; 2], goal: &Goal, higher: &mut Ladder<'_>) -> Found {
         let ends = grid(range);
         let signs = ends.map(|t| self.curve.sign(t));
@@ -286,39 +260,22 @@ impl<N: Outward> Rung for Bisection<'_, N> {
             if b < range[0] || range[1] < a {
                 continue;
             }
-            let stuck = [a.max(range[0]), b.min(range[1])];
-            if self.left == 0 {
-                return Found::Stuck(stuck);
-            }
-            self.left -= 1;
-            let found = match self.judge(&mut piece) {
-                Verdict::Free => continue,
-                Verdict::Monotone(slope) => self.cross(&piece, slope, goal),
-                Verdict::Open => None,
-            };
-            let open = match found {
-                None => stuck,
-                Some(Found::Stuck([lo, hi])) => [lo.max(range[0]), hi],
-                Some(Found::Nothing) => continue,
-                Some(found) => return found,
-            };
-            let split = if found.is_none() && !goal.is_resolved(piece.ends) {
-                self.split_point(piece.ends)
-            } else {
-                None
-            };
-            match split {
-                Some(split) if split.sign != Sign::Unknown || higher.is_empty() => {
-                    let [left, right] = piece.halves(split);
+            match self.step(&mut piece, goal, higher) {
+                Step::Done(Found::Nothing) => {}
+                Step::Done(found) => return found,
+                Step::Cut(split) => {
+                    let [left, right] = piece.cut(split);
                     stack.push(right);
                     stack.push(left);
                 }
-                _ => match climb(higher, open, goal) {
-                    Some(Found::Nothing) => {}
-                    Some(found @ (Found::Simple(_) | Found::Multiple(_))) => return found,
-                    Some(found @ Found::Stuck(_)) => return piece.certain(goal).unwrap_or(found),
-                    None => return piece.certain(goal).unwrap_or(Found::Stuck(open)),
-                },
+                Step::Ask => {
+                    let open = [a.max(range[0]), b.min(range[1])];
+                    match climb(higher, open, goal).unwrap_or(Found::Stuck(open)) {
+                        Found::Nothing => {}
+                        stuck @ Found::Stuck(_) => return piece.certain(goal).unwrap_or(stuck),
+                        found => return found,
+                    }
+                }
             }
         }
         Found::Nothing
@@ -332,6 +289,7 @@ mod tests {
     use zeroset_ia::{BigInterval, Constant};
     use zeroset_raycast::Domain;
 
+    use super::super::ladder::is_within;
     use super::super::outward::Double;
     use super::*;
 
@@ -352,9 +310,7 @@ mod tests {
         let mut search = Bisection::new(Curve::new(&tape, Some(2), context), 1000);
         search.aim(ray);
         let goal = Goal { clip, resolution: 1e-12, width: 1e-12 };
-        let found = search.search(clip.outer, &goal, &mut []);
-        eprintln!("{found:?} {:?} left {}", search.work(), search.left);
-        found
+        search.search(clip.outer, &goal, &mut [])
     }
 
     fn assert_sphere<N: Outward>(context: &N) {
