@@ -6,6 +6,7 @@
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
+use crate::single::floor;
 use crate::{Binary, Scalar, Unary};
 
 /// Do the ends of a domain belong to it?
@@ -100,7 +101,7 @@ fn quarter_turns<S: Scalar>(x: [S; 2]) -> [f64; 2] {
 
 /// Does the interval contain `first + k period` for an integer k?
 fn passes(x: [f64; 2], first: f64, period: f64) -> bool {
-    ((x[1] - first) / period).floor() >= ((x[0] - first) / period).ceil()
+    floor((x[1] - first) / period) >= -floor((first - x[0]) / period)
 }
 
 /// The range of sine or cosine, whose crests lie at `crest + 4 k` quarter turns.

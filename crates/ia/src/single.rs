@@ -22,6 +22,29 @@ const HALF_PI: [f64; 3] = [
     f64::from_bits(0x3ba3_198a_2e03_7073),
 ];
 
+/// 3 2^51: added to a number below 2^50, it leaves the nearest integer in the last bits, without a
+/// call that machines of the baseline need for `floor`.
+const SHIFT: f64 = 6_755_399_441_055_744.0;
+
+/// The nearest integer, as a number and as its bits; for |x| < 2^50.
+#[inline(always)]
+fn nearest_integer(x: f64) -> (f64, i64) {
+    let shifted = x + SHIFT;
+    (shifted - SHIFT, shifted.to_bits().wrapping_sub(SHIFT.to_bits()) as i64)
+}
+
+/// The largest integer at most x.
+#[inline(always)]
+pub(crate) fn floor(x: f64) -> f64 {
+    const LIMIT: f64 = (1_u64 << 50) as f64;
+    if x.abs() < LIMIT {
+        let (nearest, _) = nearest_integer(x);
+        if nearest > x { nearest - 1.0 } else { nearest }
+    } else {
+        x.floor()
+    }
+}
+
 /// The largest |x| for [`sin`] and [`cos`].
 pub(crate) const LARGEST_ANGLE: f32 = 1_048_576.0;
 
@@ -59,9 +82,9 @@ const fn inverse_factorials<const N: usize>(first: u32, step: u32, sign: f64) ->
 #[inline(always)]
 fn exp_double(x: f64) -> f64 {
     const TERMS: [f64; 14] = inverse_factorials(0, 1, 1.0);
-    let k = (x * LOG2_E + 0.5).floor();
+    let (k, exponent) = nearest_integer(x * LOG2_E);
     let r = (x - k * LN_2_HI) - k * LN_2_LO;
-    let scale = f64::from_bits(((k as i64 + 1023) as u64) << 52);
+    let scale = f64::from_bits(((exponent + 1023) as u64) << 52);
     polynomial(r, TERMS) * scale
 }
 
@@ -96,9 +119,9 @@ fn log_double(x: f64) -> f64 {
 fn sine_double(x: f64, quarter: i64) -> f64 {
     const SINE: [f64; 9] = inverse_factorials(1, 2, -1.0);
     const COSINE: [f64; 10] = inverse_factorials(0, 2, -1.0);
-    let k = (x * FRAC_2_PI + 0.5).floor();
+    let (k, quarters) = nearest_integer(x * FRAC_2_PI);
     let r = ((x - k * HALF_PI[0]) - k * HALF_PI[1]) - k * HALF_PI[2];
-    let quadrant = k as i64 + quarter;
+    let quadrant = quarters + quarter;
     let square = r * r;
     let sine = r * polynomial(square, SINE);
     let cosine = polynomial(square, COSINE);
@@ -212,6 +235,18 @@ mod tests {
                 assert!(e < 0.51, "{x:e}^{y} = {power:e}, wrong by {e} units");
             }
         });
+    }
+
+    #[test]
+    fn integers_below() {
+        let big = (1_u64 << 50) as f64;
+        for x in [0.0, -0.0, 0.5, 1.5, 2.5, -0.5, -1.5, 0.999, -1e-300, 7.0, -7.0, big, -big, 1e300]
+        {
+            for x in [x, f64::next_up(x), f64::next_down(x)] {
+                assert_eq!(floor(x), x.floor(), "{x}");
+            }
+        }
+        assert!(floor(f64::NAN).is_nan() && floor(f64::INFINITY) == f64::INFINITY);
     }
 
     #[test]
