@@ -14,5 +14,5 @@ mod reference;
 mod tiles;
 
 pub use amp::{Adaptation, Amp, RootTest};
-pub use kmarch::Kmarch;
+pub use kmarch::{Finishing, Kmarch, Stop};
 pub use reference::{Class, PreparedReference, Reference, Truth};

@@ -1,5 +1,7 @@
 //! Work sharing: rays in tiles, tiles over threads.
 
+use std::sync::{Mutex, PoisonError};
+
 use rayon::prelude::*;
 use zeroset_ia::widest;
 use zeroset_raycast::{
@@ -22,46 +24,60 @@ pub(crate) fn cast(
     run: impl Fn(&[Ray]) -> Vec<Hit> + Sync,
 ) -> Result<Report, Error> {
     assert_eq!(rays.len(), hits.len(), "one answer a ray");
-    let tiles = tiles(rays);
-    let mut work = Work::default();
-    // A bounded number of tiles at a time, so that answers do not pile up.
-    for group in tiles.chunks(4 * rayon::current_num_threads().max(1)) {
-        let answers: Vec<_> = group.par_iter().map(|tile| answer(*tile, &run)).collect();
-        for (index, hit) in answers.iter().flat_map(|(indices, hits)| indices.iter().zip(hits)) {
-            hits.set(*index, *hit);
-            work += hit.work;
-        }
-        progress.advance(answers.iter().map(|(indices, _)| indices.len()).sum())?;
-    }
+    let collected = Mutex::new((hits, Work::default()));
+    tiles(rays).into_par_iter().try_for_each(|tile| {
+        let answers = Answers::of(tile, &run);
+        answers.store(&mut collected.lock().unwrap_or_else(PoisonError::into_inner));
+        progress.advance(answers.indices.len())
+    })?;
+    let (_, work) = collected.into_inner().unwrap_or_else(PoisonError::into_inner);
     Ok(Report { work, device_time: None })
 }
 
-/// The indices of a tile's rays and their answers; rays that are no rays are counted and missed.
-fn answer(tile: Tile<'_>, run: &impl Fn(&[Ray]) -> Vec<Hit>) -> (Vec<usize>, Vec<Hit>) {
-    let (mut indices, mut valid) = (Vec::with_capacity(CHUNK), Vec::with_capacity(CHUNK));
-    let mut invalid = Vec::new();
-    widest(
-        #[inline(always)]
-        || {
-            tile.visit(
-                #[inline(always)]
-                |index, ray| {
-                    if ray.is_valid() {
-                        indices.push(index);
-                        valid.push(ray);
-                    } else {
-                        invalid.push(index);
-                    }
-                },
-            );
-        },
-    );
-    let mut hits = run(&valid);
-    assert_eq!(hits.len(), valid.len(), "one answer a ray");
-    let no_ray = Work { nonfinite: 1, ..Work::default() };
-    hits.extend(invalid.iter().map(|_| Hit::miss(Certificate::MISS, no_ray)));
-    indices.extend(invalid);
-    (indices, hits)
+/// The answers of a tile, and the indices of their rays.
+struct Answers {
+    indices: Vec<usize>,
+    hits: Vec<Hit>,
+    work: Work,
+}
+
+impl Answers {
+    /// Rays that are no rays are counted and missed.
+    fn of(tile: Tile<'_>, run: &impl Fn(&[Ray]) -> Vec<Hit>) -> Self {
+        let (mut indices, mut valid) = (Vec::with_capacity(CHUNK), Vec::with_capacity(CHUNK));
+        let mut invalid = Vec::new();
+        widest(
+            #[inline(always)]
+            || {
+                tile.visit(
+                    #[inline(always)]
+                    |index, ray| {
+                        if ray.is_valid() {
+                            indices.push(index);
+                            valid.push(ray);
+                        } else {
+                            invalid.push(index);
+                        }
+                    },
+                );
+            },
+        );
+        let mut hits = run(&valid);
+        assert_eq!(hits.len(), valid.len(), "one answer a ray");
+        let no_ray = Work { nonfinite: 1, ..Work::default() };
+        hits.extend(invalid.iter().map(|_| Hit::miss(Certificate::MISS, no_ray)));
+        indices.extend(invalid);
+        let mut work = Work::default();
+        hits.iter().for_each(|hit| work += hit.work);
+        Self { indices, hits, work }
+    }
+
+    fn store(&self, (hits, work): &mut (&mut Hits, Work)) {
+        for (index, hit) in self.indices.iter().zip(&self.hits) {
+            hits.set(*index, *hit);
+        }
+        *work += self.work;
+    }
 }
 
 /// A tile of a view by its corner, or a range of a batch.

@@ -7,7 +7,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, f32x16};
 
 /// How many of the view's rays hit: rays as (origin, direction), 4x4 pixel blocks in order.
-pub fn count_hits(packets: &[[[f32; 16]; 6]], half: f32, depth: usize) -> usize {
+pub(crate) fn count_hits(packets: &[[[f32; 16]; 6]], half: f32, depth: usize) -> usize {
     fearless_simd::dispatch!(Level::new(), token => count(token, packets, half, depth))
 }
 
