@@ -100,14 +100,16 @@ impl Clock {
         Self { start: (start - f64::from(ray.origin[axis.k])) * inverse, pace: inverse.abs() }
     }
 
-    /// A q at most that of `t`: the largest number if t is infinite, NaN where it overflows. Four
+    /// A q at most that of `t`: the largest number if t is infinite, the least where it overflows. Four
     /// roundings, of terms at most twice `(|t| + |start|) / pace`: less than 8 units of 2^-53.
     pub(super) fn q(&self, t: f64) -> f64 {
         if t == f64::INFINITY {
             return f64::MAX;
         }
         let inverse = 1.0 / self.pace;
-        (t - self.start) * inverse - UNITS_8 * ((t.abs() + self.start.abs()) * inverse) - TINY
+        let error = UNITS_8 * ((t.abs() + self.start.abs()) * inverse) + TINY;
+        let q = (t - self.start) * inverse - error;
+        if q.is_nan() { f64::MIN } else { q }
     }
 
     /// The range of t between two boundaries, rounded outward; NaN where it overflows. `start` has
@@ -333,4 +335,118 @@ fn lanes<R: Packet>(zero: R, x: &[R::Scalar; 64]) -> R {
         #[inline(always)]
         |i| x[i],
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec3, Vec3};
+    use num_rational::BigRational;
+    use num_traits::Signed;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    type Q = BigRational;
+
+    fn exact(x: f64) -> Q {
+        Q::from_float(x).expect("finite")
+    }
+
+    /// Is an exact number between two ends?
+    fn is_between(x: &Q, lo: f64, hi: f64) -> bool {
+        let above = lo == f64::NEG_INFINITY || (lo.is_finite() && exact(lo) <= *x);
+        let below = hi == f64::INFINITY || (hi.is_finite() && *x <= exact(hi));
+        above && below
+    }
+
+    /// Coordinates of every size, many of them zero or powers of two.
+    fn coordinate() -> impl Strategy<Value = f32> {
+        let sized = (-1.0_f32..1.0, -40_i32..40).prop_map(|(m, e)| m * 2.0_f32.powi(e));
+        let power = (any::<bool>(), -140_i32..100)
+            .prop_map(|(minus, e)| (if minus { -1.0 } else { 1.0 }) * 2.0_f32.powi(e));
+        prop_oneof![4 => -4.0_f32..4.0, 3 => sized, 1 => power, 1 => Just(0.0), 1 => Just(-0.0)]
+    }
+
+    fn ray() -> impl Strategy<Value = Ray> {
+        let vector = || [coordinate(), coordinate(), coordinate()].prop_map(Vec3::from);
+        (vector(), vector())
+            .prop_map(|(origin, direction)| Ray { origin, direction })
+            .prop_filter("a ray", |ray| ray.is_valid())
+    }
+
+    fn domain() -> impl Strategy<Value = Domain> {
+        (-3_i32..20, [-1.0_f64..1.0, -1.0..1.0, -1.0..1.0], [0.01_f64..2.0, 0.01..2.0, 0.01..2.0])
+            .prop_map(|(e, min, size)| {
+                let (min, size) = (DVec3::from(min), DVec3::from(size));
+                Domain::new(min * 2.0_f64.powi(e), (min + size) * 2.0_f64.powi(e)).expect("a box")
+            })
+    }
+
+    /// Every point of the ray between two boundaries, and no more than its time there, is enclosed.
+    fn check<S: Packet<Scalar = S> + Scalar>(
+        ray: Ray,
+        domain: &Domain,
+        depth: u32,
+        place: f64,
+    ) -> Result<(), TestCaseError> {
+        let axis = Axis::of(ray);
+        let bounds = Bounds::new::<S>(domain);
+        let range = [0.0, 1e30];
+        let marcher = Marcher { ray: 0, line: ray, range, depth };
+        let zero = S::from_f64(0.0);
+        let lattice = Lattice::<S>::new(zero, axis, &bounds, &[marcher]);
+        let width = lattice.width(depth);
+        let index = (place * 2.0_f64.powi(depth as i32)) as u64;
+        let (near, far) = (lattice.boundary(index, width), lattice.boundary(index + 1, width));
+        // The same boundary at the next depth.
+        let again = lattice.boundary(2 * index, lattice.width(depth + 1));
+        prop_assert_eq!(near.q.to_f64(), again.q.to_f64());
+        prop_assert!(near.q.to_f64() <= far.q.to_f64());
+        let clock = Clock::new(ray, axis, bounds.start(axis));
+        let [o, d] = [ray.origin, ray.direction].map(|v| v.to_array().map(|x| exact(x.into())));
+        let start = exact(bounds.start(axis));
+        let at = |k: &Q| (k - &o[axis.k]) / &d[axis.k];
+        let [lo, hi] = clock.range([near.q.to_f64(), far.q.to_f64()]);
+        for boundary in [near, far] {
+            let q = exact(boundary.q.to_f64());
+            let t = at(&if axis.forward { &start + &q } else { &start - &q });
+            prop_assert!(is_between(&t, lo, hi), "{lo} {hi}");
+            for (ends, axis) in boundary.ends.iter().zip(axis.all()) {
+                let x = &o[axis] + &d[axis] * &t;
+                let [lo, hi] = ends.map(Scalar::to_f64);
+                prop_assert!(is_between(&x, lo, hi), "axis {axis}: {lo} {hi}");
+            }
+        }
+        // Where the marcher's range starts and ends.
+        let q = |t: f64| (exact(t) - at(&start)) * d[axis.k].abs();
+        prop_assert!(is_between(&q(range[0]), lattice.range[0].to_f64(), f64::INFINITY));
+        prop_assert!(is_between(&q(range[1]), f64::NEG_INFINITY, lattice.range[1].to_f64()));
+        let t = 1e3 * place;
+        let told = clock.q(t);
+        prop_assert!(told == f64::MIN || is_between(&q(t), told, f64::INFINITY), "{told}");
+        Ok(())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn boxes_hold_the_ray(
+            ray in ray(), domain in domain(), depth in 0_u32..30, place in 0.0_f64..1.0,
+        ) {
+            check::<f32>(ray, &domain, depth, place)?;
+            check::<f64>(ray, &domain, depth, place)?;
+        }
+    }
+
+    #[test]
+    fn clocks_that_overflow_skip_nothing() {
+        let axis = Axis { k: 0, forward: true };
+        let ray = Ray::new(Vec3::ZERO, Vec3::new(1e-45, 0.0, 0.0));
+        let clock = Clock::new(ray, axis, 1e300);
+        assert_eq!(clock.q(f64::INFINITY), f64::MAX);
+        assert!(clock.q(1.0) == f64::MIN || clock.q(1.0) == f64::NEG_INFINITY);
+        let [lo, hi] = clock.range([0.0, 1.0]);
+        assert!(!(lo > 0.0 && hi < f64::INFINITY));
+    }
 }

@@ -1,0 +1,107 @@
+//! What may not be proved: poles, jumps, gaps, and anything rounded to nearest.
+
+use zeroset_cpu::{Finishing, Kmarch};
+use zeroset_ia::Rounding;
+use zeroset_raycast::{Certificate, Hit, Ray};
+
+use crate::{EQUATIONS, answers, assorted, ray, scene};
+
+fn one(equation: &str, ray: Ray) -> Hit {
+    answers(&Kmarch::default(), &scene(equation, 1.0), &[ray])[0]
+}
+
+#[test]
+fn rounding_to_nearest_proves_no_first_hit_and_no_miss() {
+    for (equation, half) in EQUATIONS {
+        let scene = scene(equation, half);
+        for finish in [Finishing::Accept, Finishing::Certify] {
+            let method = Kmarch { rounding: Rounding::Nearest, finish, ..Kmarch::default() };
+            for hit in answers(&method, &scene, &assorted(&scene, 16)) {
+                assert!(!hit.certificate.contains(Certificate::FIRST), "{equation}: {hit:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn accepted_slabs_are_no_roots() {
+    for (equation, half) in EQUATIONS {
+        let scene = scene(equation, half);
+        let method = Kmarch { finish: Finishing::Accept, ..Kmarch::default() };
+        for hit in answers(&method, &scene, &assorted(&scene, 16)) {
+            assert!(!hit.certificate.contains(Certificate::ROOT), "{equation}: {hit:?}");
+        }
+    }
+}
+
+#[test]
+fn a_pole_is_no_root_and_costs_the_first_bit_only_where_it_is_touched() {
+    let across = ray([-3.0, 0.1, 0.2], [1.0, 0.0, 0.0]);
+    let beside = ray([0.5, -3.0, 0.2], [0.0, 1.0, 0.0]);
+    // The sign changes at x = 0.3, without a root.
+    assert_eq!(one("1/(x-0.3)", across).certificate, Certificate::MISS);
+    assert_eq!(one("1/(x-0.3)", beside).certificate, Certificate::PROVEN_MISS);
+    // Roots behind the pole, at x = 0.1, and before it, at x = -0.5.
+    let behind = one("1/(x+0.3)-1/(0.1+0.3)", across);
+    assert_eq!(behind.certificate, Certificate::ROOT_HIT);
+    assert!(behind.bracket[0] <= 3.1 && 3.1 <= behind.bracket[1], "{behind:?}");
+    let before = one("1/(x-0.3)+1/0.8", across);
+    assert_eq!(before.certificate, Certificate::PROVEN_HIT);
+    assert!(before.bracket[0] <= 2.5 && 2.5 <= before.bracket[1], "{before:?}");
+    for equation in ["tan(3*x)+9", "log(x+0.3)", "1/x^2-1e3"] {
+        let hit = one(equation, across);
+        assert!(!hit.certificate.contains(Certificate::HIT) || hit.bracket[0] > 2.0, "{hit:?}");
+    }
+}
+
+#[test]
+fn jumps_are_never_proven_roots() {
+    let along = [
+        ray([-3.0, 0.13, 0.21], [1.0, 0.0, 0.0]),
+        ray([3.0, 0.13, 0.21], [-1.0, 0.01, 0.02]),
+        ray([-2.0, -2.0, 0.1], [1.0, 0.9, 0.0]),
+    ];
+    for equation in
+        ["floor(3*x)-0.5", "ceil(3*x)+0.5", "sign(x-0.1)", "sign(x-0.1)+0.5", "mod(3*x,1)-5"]
+    {
+        for ray in along {
+            let hit = one(equation, ray);
+            assert!(!hit.certificate.contains(Certificate::ROOT), "{equation}: {hit:?}");
+        }
+    }
+    // The root at x = -1 + 0.25, between jumps at multiples of 1/2.
+    let hit = one("mod(2*x,1)-0.5", along[0]);
+    assert_eq!(hit.certificate, Certificate::PROVEN_HIT);
+    assert!(hit.bracket[0] <= 2.25 && 2.25 <= hit.bracket[1], "{hit:?}");
+}
+
+#[test]
+fn a_gap_in_the_domain_of_a_function_is_no_root() {
+    // Defined for |x| >= 1/2 only, negative on the left and positive on the right.
+    let equation = "sqrt(x^2-0.25)*0+x";
+    for ray in [ray([-3.0, 0.1, 0.2], [1.0, 0.0, 0.0]), ray([3.0, 0.1, 0.2], [-1.0, 0.1, 0.0])] {
+        let hit = one(equation, ray);
+        assert!(!hit.certificate.contains(Certificate::ROOT), "{hit:?}");
+    }
+    // Undefined everywhere: nothing is there.
+    let nowhere = one("sqrt(-1-x^2)", ray([-3.0, 0.1, 0.2], [1.0, 0.0, 0.0]));
+    assert!(!nowhere.certificate.is_hit(), "{nowhere:?}");
+}
+
+#[test]
+fn roots_on_the_faces_of_the_domain_count() {
+    // The domain is closed: x = 1 is in it. To prove it is optional, to deny it a lie.
+    for direction in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [1.0, 0.1, 0.1]] {
+        for face in ["x-1", "x+1"] {
+            let start = [-3.0 * direction[0], 0.1, 0.2];
+            let hit = one(face, ray(start, direction));
+            assert_ne!(hit.certificate, Certificate::PROVEN_MISS, "{face} {direction:?}");
+        }
+    }
+    // A ray within the surface.
+    let hit = one("z-0.5", ray([-3.0, 0.1, 0.5], [1.0, 0.0, 0.0]));
+    assert!(hit.certificate.is_hit() && hit.bracket[0] <= 2.0, "{hit:?}");
+    // A ray that starts on the surface.
+    let hit = one("x-0.5", ray([0.5, 0.0, 0.0], [1.0, 0.0, 0.0]));
+    assert!(hit.certificate.is_hit() && hit.bracket[0] <= 0.0, "{hit:?}");
+}
