@@ -69,8 +69,7 @@ fn judge(
 }
 
 fn methods() -> Vec<Kmarch> {
-    let mut fine = Kmarch::default();
-    fine.stop = Stop::Width(1e-5);
+    let fine = Kmarch { stop: Stop::Width(1e-5), ..Kmarch::default() };
     vec![
         Kmarch::default(),
         fine,
