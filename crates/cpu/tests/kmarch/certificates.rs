@@ -63,11 +63,21 @@ fn jumps_are_never_proven_roots() {
     ];
     for equation in
         ["floor(3*x)-0.5", "ceil(3*x)+0.5", "sign(x-0.1)", "sign(x-0.1)+0.5", "mod(3*x,1)-5"]
+            .into_iter()
+            // With a slope: monotone, with opposite signs around a jump.
+            .chain(["floor(3*x)+x/8-0.4", "sign(x-0.1)+x/8", "ceil(2*x)-x/8-0.5"])
     {
         for ray in along {
             let hit = one(equation, ray);
             assert!(!hit.certificate.contains(Certificate::ROOT), "{equation}: {hit:?}");
         }
+    }
+    // A root at x = 0.6, shortly after a jump over which the slope is 1.
+    for ray in along {
+        let hit = one("0.9*floor(2*x)+x-1.5", ray);
+        let x = |t: f64| ray.at(t).x;
+        let [a, b] = hit.bracket.map(x);
+        assert!(a.min(b) <= 0.6 && 0.6 <= a.max(b), "{ray:?}: {hit:?}");
     }
     // The root at x = -1 + 0.25, between jumps at multiples of 1/2.
     let hit = one("mod(2*x,1)-0.5", along[0]);
