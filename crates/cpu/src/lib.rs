@@ -8,11 +8,12 @@
 
 mod amp;
 mod implicit;
+mod isa;
 mod kmarch;
 mod normals;
 mod reference;
 mod tiles;
 
 pub use amp::{Adaptation, Amp, RootTest};
-pub use kmarch::Kmarch;
+pub use kmarch::{Finishing, Kmarch, Stop};
 pub use reference::{Class, PreparedReference, Reference, Truth};
