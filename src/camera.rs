@@ -20,6 +20,13 @@ impl CameraText {
     /// the domain's bounding sphere fills the view.
     pub(crate) fn camera(&self, domain: &Domain) -> Result<Camera, Failure> {
         let standard = Camera::facing(domain);
+        if !standard.eye.as_vec3().is_finite() {
+            let [min, max] = [domain.min, domain.max].map(|corner| corner.to_array());
+            return Err(Failure::usage(format!(
+                "the domain {min:?} to {max:?} is too large or too small to be seen along rays in \
+                 single precision; give another --domain"
+            )));
+        }
         let at = self.at.unwrap_or(standard.at);
         let projection = self.projection.unwrap_or(standard.projection);
         let eye = self.eye.unwrap_or_else(|| {
