@@ -20,7 +20,8 @@ impl CameraText {
     /// the domain's bounding sphere fills the view.
     pub(crate) fn camera(&self, domain: &Domain) -> Result<Camera, Failure> {
         let standard = Camera::facing(domain);
-        if !standard.eye.as_vec3().is_finite() {
+        let (eye, centre) = (standard.eye.as_vec3(), standard.at.as_vec3());
+        if !eye.is_finite() || eye == centre {
             let [min, max] = [domain.min, domain.max].map(|corner| corner.to_array());
             return Err(Failure::usage(format!(
                 "the domain {min:?} to {max:?} is too large or too small to be seen along rays in \

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{HEADER, SPHERE, done, files, folder, run_with};
+use crate::{HEADER, SPHERE, done, folder, run_with};
 
 /// A row of answers.
 #[derive(Debug, serde::Deserialize)]
