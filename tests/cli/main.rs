@@ -112,6 +112,18 @@ fn compare_prints_a_table_and_writes_pictures_and_records() {
     assert!(kmarch.threads > 0 && !kmarch.revision.is_empty() && !kmarch.cpu.is_empty());
     assert_eq!(kmarch.judged, 24 * 16);
 
+    // A row says how to repeat it.
+    assert_eq!(kmarch.request, "first-with-normal");
+    let equation = "x^2+y^2+z^2=1";
+    let camera = "eye=3.0,-2.0,1.0,at=0.0,0.0,0.1,up=0.0,0.0,1.0,ortho=2.5";
+    let domain = "-1.0,-1.0,-1.0,1.0,1.0,0.5";
+    let view = ["--camera", camera, "--domain", domain, "--view", "certificate"];
+    let small = ["compare", equation, "--methods", "kmarch", "--size", "8x8", "--out", "p"];
+    done(dir.path(), &[&small[..], &view].concat());
+    let row = records(&dir.path().join("p/records.csv")).remove(0);
+    assert_eq!((row.camera.as_str(), row.domain.as_str()), (camera, domain));
+    assert_eq!((row.equation.as_str(), row.request.as_str()), (equation, "first"));
+
     // A second run adds its rows, and prints them.
     let json = done(dir.path(), &[&arguments[..], &["--json", "--methods", "amp-sign"]].concat());
     let printed: Vec<zeroset::bench::Record> = serde_json::from_str(&json).unwrap();
