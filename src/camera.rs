@@ -20,6 +20,14 @@ impl CameraText {
     /// the domain's bounding sphere fills the view.
     pub(crate) fn camera(&self, domain: &Domain) -> Result<Camera, Failure> {
         let standard = Camera::facing(domain);
+        let (eye, centre) = (standard.eye.as_vec3(), standard.at.as_vec3());
+        if !eye.is_finite() || eye == centre {
+            let [min, max] = [domain.min, domain.max].map(|corner| corner.to_array());
+            return Err(Failure::usage(format!(
+                "the domain {min:?} to {max:?} is too large or too small to be seen along rays in \
+                 single precision; give another --domain"
+            )));
+        }
         let at = self.at.unwrap_or(standard.at);
         let projection = self.projection.unwrap_or(standard.projection);
         let eye = self.eye.unwrap_or_else(|| {
@@ -40,9 +48,8 @@ impl CameraText {
         }
         if camera.frame().iter().any(|v| !v.is_finite()) {
             return Err(Failure::usage(format!(
-                "the camera {} sees nothing: eye and at must differ, and up must not point along the \
-                 view",
-                text(&camera)
+                "the camera {camera} sees nothing: eye and at must differ, and up must not point \
+                 along the view"
             )));
         }
         Ok(camera)
@@ -71,17 +78,6 @@ pub(crate) fn parse(text: &str) -> Result<CameraText, String> {
         }
     }
     Ok(camera)
-}
-
-/// The camera as text that [`parse`] reads back.
-pub(crate) fn text(camera: &Camera) -> String {
-    let vector = |v: DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
-    let projection = match camera.projection {
-        Projection::Perspective { fov } => format!("fov={fov:?}"),
-        Projection::Orthographic { height } => format!("ortho={height:?}"),
-    };
-    let [eye, at, up] = [camera.eye, camera.at, camera.up].map(vector);
-    format!("eye={eye},at={at},up={up},{projection}")
 }
 
 const EXPECTED: &str = "give eye=x,y,z,at=x,y,z,up=x,y,z and fov=degrees or ortho=height, or some of \
@@ -144,7 +140,7 @@ mod tests {
             "up=1,0,0,eye=0,0,1e-7",
         ] {
             let camera = parse(given).unwrap().camera(&domain()).unwrap();
-            let again = parse(&text(&camera)).unwrap().camera(&domain()).unwrap();
+            let again = parse(&camera.to_string()).unwrap().camera(&domain()).unwrap();
             assert_eq!(camera, again, "{given}");
         }
     }

@@ -104,6 +104,9 @@ impl Compare {
             revision: env!("ZEROSET_REVISION").into(),
         };
         let machine = Machine::this();
+        if comparison.interrupted && comparison.runs.is_empty() {
+            return Err(Failure::Interrupted);
+        }
         let records = Record::of(&comparison, &scene, rays, &machine, &context);
         let mut files = self.draw(&comparison, &scene, &view)?;
         if !records.is_empty() {
@@ -126,8 +129,11 @@ impl Compare {
                 machine.threads
             );
             let tables = table::tables(&comparison, rays.len());
-            let files: Vec<_> = files.iter().map(|f| format!("  {}", f.display())).collect();
-            let text = format!("{heading}\n\n{tables}\n\nWritten:\n{}\n", files.join("\n"));
+            let mut text = format!("{heading}\n\n{tables}\n");
+            if !files.is_empty() {
+                text += "\nWritten:\n";
+                text.extend(files.iter().map(|f| format!("  {}\n", f.display())));
+            }
             output::print(text.as_bytes())?;
         }
         verdict(&comparison)
@@ -160,6 +166,9 @@ impl Compare {
         }
         let mut methods: Vec<Box<dyn Method>> = Vec::new();
         for id in &self.methods {
+            if id.trim() == "all" {
+                return Err(Failure::usage("--methods takes all, or names, not both"));
+            }
             let method = registry.method(id.trim()).map_err(Failure::usage)?;
             if methods.iter().any(|m| m.id() == method.id()) {
                 return Err(Failure::usage(format!("--methods names {} twice", method.id())));

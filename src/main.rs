@@ -36,9 +36,6 @@ struct CommandLine {
     #[arg(long, global = true, value_name = "N", value_parser = options::threads)]
     #[arg(allow_hyphen_values = true, display_order = 900)]
     threads: Option<usize>,
-    /// Seed for methods that draw random numbers; none does so far
-    #[arg(long, global = true, value_name = "N", default_value_t = 0, display_order = 901)]
-    seed: u64,
 }
 
 #[derive(Subcommand, Debug)]

@@ -18,8 +18,8 @@ const MOST_PIXELS: usize = 1 << 26;
 /// A surface, the values of its parameters, and where its roots count.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct SceneOptions {
-    /// A catalogue id, else a file that holds an equation, else an equation such as
-    /// "x^4+y^4+z^4=1"
+    /// A catalogue id; else a file that holds an equation, or a catalogue of your own: FILE.toml, or
+    /// FILE.toml#ID; else an equation such as "x^4+y^4+z^4=1"
     #[arg(value_name = "SURFACE", allow_hyphen_values = true)]
     pub(crate) surface: String,
     /// Sets a parameter of the equation to a number or a constant expression; repeatable [default:
@@ -49,7 +49,17 @@ impl CameraOptions {
     /// The view of a domain.
     pub(crate) fn view(&self, domain: &Domain, size: Size) -> Result<View, Failure> {
         let camera = self.camera.clone().unwrap_or_default().camera(domain)?;
-        Ok(View::new(camera, size.width, size.height))
+        let view = View::new(camera, size.width, size.height);
+        let (right, bottom) = (size.width - 1, size.height - 1);
+        let corners = [(0, 0), (right, 0), (0, bottom), (right, bottom)];
+        if corners.iter().all(|(column, row)| view.ray(*column, *row).is_valid()) {
+            Ok(view)
+        } else {
+            Err(Failure::usage(format!(
+                "rays of the camera {} start beyond single precision; make ortho smaller",
+                view.camera
+            )))
+        }
     }
 }
 
@@ -78,7 +88,8 @@ pub(crate) struct Setting {
 impl MethodOptions {
     /// The wanted width of brackets.
     pub(crate) fn precision(&self, scene: &Scene) -> f64 {
-        self.precision.unwrap_or(1e-4 * scene.domain.longest_side())
+        // Division by an exact number: for a side of 2 this is 0.0002, not 0.00020000000000000001.
+        self.precision.unwrap_or(scene.domain.longest_side() / 1e4)
     }
 
     /// Sets the knobs of methods for a scene.

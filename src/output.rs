@@ -46,22 +46,33 @@ pub(crate) fn make_folder_of(file: &Path) -> Result<(), Failure> {
     }
 }
 
-/// A name with only letters, digits, dots, dashes and underscores, for files.
+/// A name with only letters, digits, dots, dashes and underscores, for files. Names that lose
+/// something get a checksum, so that x^2+y^2 does not overwrite x^2-y^2.
 pub(crate) fn file_stem(name: &str) -> String {
     /// Longer names would exceed what file systems take.
-    const LONGEST: usize = 60;
+    const LONGEST: usize = 50;
     let mut stem = String::new();
     for c in name.chars() {
         match c {
-            'a'..='z' | 'A'..='Z' | '0'..='9' | '-' | '_' => stem.push(c),
-            '.' if !stem.is_empty() => stem.push(c),
+            'a'..='z' | 'A'..='Z' | '0'..='9' | '_' => stem.push(c),
+            // Files must not look hidden, nor like options.
+            '.' | '-' if !stem.is_empty() => stem.push(c),
             _ if !stem.is_empty() && !stem.ends_with('-') => stem.push('-'),
             _ => {}
         }
     }
     stem.truncate(LONGEST);
     let stem = stem.trim_end_matches(['-', '.']);
-    if stem.is_empty() { "surface".into() } else { stem.into() }
+    match stem {
+        "" => format!("surface-{:08x}", checksum(name)),
+        _ if stem == name => stem.into(),
+        _ => format!("{stem}-{:08x}", checksum(name)),
+    }
+}
+
+/// The FNV-1a hash in 32 bits: the same on every machine.
+fn checksum(text: &str) -> u32 {
+    text.bytes().fold(0x811c_9dc5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }
 
 #[cfg(test)]
@@ -86,9 +97,23 @@ mod tests {
     #[test]
     fn names_of_files_are_plain() {
         assert_eq!(file_stem("barth-sextic"), "barth-sextic");
-        assert_eq!(file_stem("x^2 + y^2 = 1/4"), "x-2-y-2-1-4");
-        assert_eq!(file_stem("../../etc"), "etc");
-        assert_eq!(file_stem("^^^"), "surface");
-        assert_eq!(file_stem(&"x+".repeat(500)).len(), 59);
+        for (name, start) in
+            [("x^2 + y^2 = 1/4", "x-2-y-2-1-4-"), ("../../etc", "etc-"), ("^^^", "surface-")]
+        {
+            let stem = file_stem(name);
+            assert!(stem.starts_with(start) && stem.len() == start.len() + 8, "{stem}");
+        }
+        assert!(file_stem("-x").starts_with("x-") && file_stem(".x").starts_with("x-"));
+        assert_eq!(file_stem(&"x+".repeat(500)).len(), 49 + 9);
+    }
+
+    #[test]
+    fn other_equations_have_other_files() {
+        let names = ["x^2+y^2-1", "x^2-y^2+1", "x-2-y-2-1", "x^2+y^2-1 "].map(file_stem);
+        for (i, name) in names.iter().enumerate() {
+            assert!(!names[..i].contains(name), "{name}");
+        }
+        // A published test vector.
+        assert_eq!(checksum("foobar"), 0xbf9c_f968);
     }
 }

@@ -19,9 +19,9 @@ use crate::{output, surface};
 const AFTER: &str = "\
 Examples:
   zeroset render barth-sextic
-  zeroset render klein --view certificate --size 1024x1024
+  zeroset render klein --view certificate --legend --size 1024x1024
   zeroset render '-x^2-y^2-z^2+1' --camera eye=0,-4,0,fov=30 --out sphere.png
-  zeroset render torus --method amp-sign --view error --out error.png";
+  zeroset render torus --method amp-sign --view error --legend --out error.png";
 
 /// Draws a surface by one method.
 #[derive(Args, Clone, Debug)]
@@ -42,6 +42,9 @@ pub(crate) struct Render {
     /// the reference)
     #[arg(long, value_name = "VIEW", value_parser = options::view_kind, default_value = "shaded")]
     view: ViewKind,
+    /// Draws below the picture what its colours mean
+    #[arg(long)]
+    legend: bool,
     #[command(flatten)]
     methods: MethodOptions,
     /// The picture, or with .exr the hits as numbers too [default:
@@ -60,6 +63,9 @@ impl Render {
         let [method] = methods;
         method.supports(&scene).map_err(Failure::work)?;
         let file = self.out.clone().unwrap_or_else(|| self.default_file(&scene));
+        if self.legend && is_exr(&file) {
+            return Err(Failure::usage("--legend is for .png files; an .exr file holds numbers"));
+        }
         output::make_folder_of(&file)?;
 
         let progress = watch::interruptible()?;
@@ -82,7 +88,8 @@ impl Render {
         if is_exr(&file) {
             shade::exr::save(&file, &view, &hits, Some(&picture)).map_err(Failure::work)?;
         } else {
-            picture.save_png(&file).map_err(Failure::work)?;
+            let picture = if self.legend { picture.with_legend() } else { Ok(picture) };
+            picture.and_then(|picture| picture.save_png(&file)).map_err(Failure::work)?;
         }
         let facts = [
             summary(&hits),
@@ -92,7 +99,8 @@ impl Render {
         ];
         if !hits.certificate.iter().any(|c| c.is_hit()) {
             eprintln!(
-                "zeroset: nothing was hit: is the surface in the domain, and the domain in view? See --domain and --camera"
+                "zeroset: nothing was hit: is the surface in the domain, and the domain in view? \
+                 See --domain and --camera"
             );
         }
         output::print(format!("{}\n", facts.join("\n")).as_bytes())

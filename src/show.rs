@@ -10,7 +10,8 @@ use crate::{output, surface};
 /// Shows a surface: its equation, its source, and what is known of it.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct Show {
-    /// A catalogue id, else a file that holds an equation, else an equation
+    /// A catalogue id; else a file that holds an equation, or a catalogue of your own: FILE.toml, or
+    /// FILE.toml#ID; else an equation such as "x^4+y^4+z^4=1"
     #[arg(value_name = "SURFACE", allow_hyphen_values = true)]
     surface: String,
 }
@@ -35,7 +36,12 @@ impl Show {
         }
         lines.push(("domain", domain(&scene.domain)));
         lines.extend(facts(&surface));
-        let text: String = lines.iter().map(|(key, value)| format!("{key:<11}{value}\n")).collect();
+        let text: String = lines
+            .iter()
+            .map(|(key, value)| {
+                format!("{key:<11}{}\n", value.replace('\n', &format!("\n{:11}", "")))
+            })
+            .collect();
         output::print(text.as_bytes())
     }
 }

@@ -11,6 +11,10 @@ use crate::options::SceneOptions;
 pub(crate) fn resolve(text: &str) -> Result<Surface, Failure> {
     catalogue::resolve(text, None).map_err(|error| match error {
         ResolveError::Equation(error) => unreadable(&error),
+        ResolveError::EquationInFile { file, error } => match unreadable(&error) {
+            Failure::Usage(why) => Failure::usage(format!("in {file}: {why}")),
+            other => other,
+        },
         error => Failure::usage(error),
     })
 }

@@ -1,6 +1,6 @@
 //! `zeroset trace`: a batch of rays from a script, answered one a row.
 
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -35,7 +35,7 @@ Example:
 pub(crate) struct Trace {
     #[command(flatten)]
     scene: SceneOptions,
-    /// The method
+    /// The method; `zeroset list methods` lists them
     #[arg(long, value_name = "M")]
     method: String,
     /// The rays; `-` reads standard input
@@ -57,6 +57,7 @@ impl Trace {
         let rays = self.read()?;
         if !is_dash(&self.out) {
             output::make_folder_of(&self.out)?;
+            self.keep_rays()?;
         }
         let progress = watch::interruptible()?;
         let batch = RayBatch::new(rays);
@@ -80,9 +81,23 @@ impl Trace {
                 .map_err(|why| Failure::work(format!("standard input, {why}")));
         }
         let name = self.rays.display();
-        let file = File::open(&self.rays)
-            .map_err(|error| Failure::work(format!("cannot read the rays {name}: {error}")))?;
+        let fail = |why: &dyn Display| Failure::work(format!("cannot read the rays {name}: {why}"));
+        if self.rays.is_dir() {
+            return Err(fail(&"it is a folder"));
+        }
+        let file = File::open(&self.rays).map_err(|error| fail(&error))?;
         ray_file::read(file).map_err(|why| Failure::work(format!("{name}, {why}")))
+    }
+
+    /// Refuses to write the answers over the rays.
+    fn keep_rays(&self) -> Result<(), Failure> {
+        match (self.rays.canonicalize(), self.out.canonicalize()) {
+            (Ok(rays), Ok(out)) if rays == out => Err(Failure::usage(format!(
+                "--out {} would overwrite the rays; name another file",
+                self.out.display()
+            ))),
+            _ => Ok(()),
+        }
     }
 }
 

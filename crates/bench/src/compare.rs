@@ -119,7 +119,10 @@ impl Times {
     /// The times of frames and of the device in them; `None` if there are none.
     fn of(frames: &mut [(Duration, Option<Duration>)]) -> Option<Self> {
         frames.sort();
-        let (median, device) = *frames.get(frames.len() / 2)?;
+        let middle = [frames.len().checked_sub(1)? / 2, frames.len() / 2];
+        let [(a, device_a), (b, device_b)] = middle.map(|i| frames[i]);
+        let median = (a + b) / 2;
+        let device = device_a.zip(device_b).map(|(a, b)| (a + b) / 2);
         Some(Self {
             runs: frames.len(),
             median,
@@ -324,5 +327,20 @@ fn expected_time(
         }
         Ok(_) | Err(Error::Unsupported(_)) => Ok(Duration::ZERO),
         Err(error) => Err(error),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_of_an_even_number_lies_between_the_middle_two() {
+        let ms = Duration::from_millis;
+        assert_eq!(Times::of(&mut []), None);
+        let times = Times::of(&mut [(ms(9), None), (ms(1), None), (ms(2), None)]).unwrap();
+        assert_eq!((times.min, times.median, times.max), (ms(1), ms(2), ms(9)));
+        let times = Times::of(&mut [(ms(8), Some(ms(6))), (ms(4), Some(ms(2)))]).unwrap();
+        assert_eq!((times.median, times.device), (ms(6), Some(ms(4))));
     }
 }

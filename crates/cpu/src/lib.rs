@@ -8,6 +8,7 @@
 
 mod amp;
 mod implicit;
+mod isa;
 mod kmarch;
 mod normals;
 mod reference;

@@ -135,4 +135,25 @@ mod tests {
             assert!(PLAIN.contains(&name) || Callable::from_name(name).is_some(), "{name}");
         }
     }
+
+    const GUIDE: &str = include_str!("../../../docs/equations.md");
+
+    #[test]
+    fn the_guide_names_all_that_an_equation_may() {
+        let code = GUIDE.split('`').skip(1).step_by(2);
+        let words: Vec<&str> =
+            code.flat_map(|code| code.split(|c: char| !c.is_ascii_alphanumeric())).collect();
+        for name in known() {
+            assert!(words.contains(&name), "docs/equations.md does not mention {name}");
+        }
+    }
+
+    #[test]
+    fn the_examples_of_the_guide_are_equations() {
+        let examples: Vec<&str> = GUIDE.split("```").nth(1).unwrap().trim().lines().collect();
+        assert!(examples.len() >= 8, "{examples:?}");
+        for example in examples {
+            crate::Function::parse(example).unwrap_or_else(|e| panic!("{}", e.render()));
+        }
+    }
 }

@@ -13,7 +13,8 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`real`] | machine reals: scalars, nearest rounding, pairs |
+//! | [`real`] | machine reals: scalars, pairs |
+//! | [`nearest`] | reals whose marks do nothing |
 //! | [`lanes`] | SIMD lanes, chosen at run time |
 //! | [`number`] | what an expression needs of a number |
 //! | [`interval`] | intervals, raw and set-based (IEEE 1788) |
@@ -32,6 +33,7 @@ mod elementary;
 pub mod interval;
 pub mod jet;
 pub mod lanes;
+pub mod nearest;
 pub mod number;
 pub mod plain;
 mod range;
@@ -45,6 +47,7 @@ pub use dual::Dual;
 pub use interval::{Interval, Raw, Set};
 pub use jet::{Enclosure, Jet};
 pub use lanes::{Isa, Kernel, Lanes, Rounding, dispatch, widest};
+pub use nearest::Nearest;
 pub use number::{Binary, Number, Unary};
 pub use plain::Plain;
-pub use real::{Nearest, Packet, Pair, Real, Scalar};
+pub use real::{Packet, Pair, Real, Scalar};

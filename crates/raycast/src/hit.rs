@@ -145,6 +145,17 @@ pub enum Request {
     Any,
 }
 
+impl Request {
+    /// The name, as in records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::First => "first",
+            Self::FirstWithNormal => "first-with-normal",
+            Self::Any => "any",
+        }
+    }
+}
+
 /// The answers for a set of rays, in the order of the rays.
 #[derive(Clone, Debug)]
 pub struct Hits {

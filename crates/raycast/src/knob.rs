@@ -23,9 +23,30 @@ pub fn number(knob: &str, value: &str, [min, max]: [f64; 2]) -> Result<f64, Knob
         _ => Err(KnobError::Value {
             knob: knob.into(),
             value: value.into(),
-            expected: format!("a number from {min} to {max}"),
+            expected: format!("a number from {} to {}", text(min), text(max)),
         }),
     }
+}
+
+/// Reads a whole number in `[min, max]`.
+///
+/// # Errors
+/// [`KnobError::Value`] names the limits.
+pub fn whole(knob: &str, value: &str, [min, max]: [u32; 2]) -> Result<u32, KnobError> {
+    match value.trim().parse() {
+        Ok(n) if (min..=max).contains(&n) => Ok(n),
+        _ => Err(KnobError::Value {
+            knob: knob.into(),
+            value: value.into(),
+            expected: format!("a whole number from {min} to {max}"),
+        }),
+    }
+}
+
+/// A number as text that [`number`] reads back exactly, and that is never long: 0.05, 10, 1e-12.
+pub fn text(x: f64) -> String {
+    let exact = format!("{x:?}");
+    exact.strip_suffix(".0").map(String::from).unwrap_or(exact)
 }
 
 /// Reads one of several names.
@@ -40,6 +61,15 @@ pub fn choice<T: Copy>(knob: &str, value: &str, choices: &[(&str, T)]) -> Result
             expected: choices.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(" or "),
         }
     })
+}
+
+/// The name of one of several values: what [`choice`] reads back.
+///
+/// # Panics
+/// If the value is not among the choices.
+pub fn name<T: PartialEq>(choices: &[(&str, T)], value: &T) -> String {
+    let (name, _) = choices.iter().find(|(_, v)| v == value).expect("every value has a name");
+    (*name).into()
 }
 
 /// The error for a knob that `method` does not have.
@@ -68,11 +98,34 @@ mod tests {
     }
 
     #[test]
+    fn whole_numbers_have_no_fraction() {
+        assert_eq!(whole("bits", " 53 ", [53, 4096]), Ok(53));
+        for text in ["", "52", "4097", "53.5", "1e2", "-1", "nan"] {
+            let error = whole("bits", text, [53, 4096]).unwrap_err().to_string();
+            let expected =
+                format!("knob bits cannot be {text:?}: it takes a whole number from 53 to 4096");
+            assert_eq!(error, expected);
+        }
+    }
+
+    #[test]
+    fn numbers_are_short_and_read_back() {
+        let cases = [(0.0, "0"), (10.0, "10"), (0.05, "0.05"), (1e-12, "1e-12"), (1e30, "1e30")];
+        for (x, expected) in cases {
+            assert_eq!(text(x), expected);
+        }
+        for x in [1.0 / 3.0, f64::MIN_POSITIVE, f64::MAX, 123_456_789.125] {
+            assert_eq!(number("step", &text(x), [0.0, f64::MAX]), Ok(x));
+        }
+    }
+
+    #[test]
     fn choices_are_listed() {
         let choices = [("outward", 1), ("nearest", 2)];
         assert_eq!(choice("rounding", " nearest", &choices), Ok(2));
         let error = choice("rounding", "Nearest", &choices).unwrap_err().to_string();
         assert_eq!(error, "knob rounding cannot be \"Nearest\": it takes outward or nearest");
+        assert_eq!(name(&choices, &2), "nearest");
     }
 
     #[test]

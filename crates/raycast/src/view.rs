@@ -1,5 +1,7 @@
 //! Views: a camera and its pixels.
 
+use std::fmt::{self, Display};
+
 use glam::{DVec3, Vec3};
 
 use crate::{Domain, Ray};
@@ -49,6 +51,20 @@ impl Camera {
         let forward = (self.at - self.eye).normalize();
         let right = forward.cross(self.up).normalize();
         [right, right.cross(forward), forward]
+    }
+}
+
+/// `eye=x,y,z,at=x,y,z,up=x,y,z,fov=DEGREES` or `..,ortho=HEIGHT`, as the command line takes it; the
+/// numbers read back exactly.
+impl Display for Camera {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (key, v) in [("eye", self.eye), ("at", self.at), ("up", self.up)] {
+            write!(f, "{key}={:?},{:?},{:?},", v.x, v.y, v.z)?;
+        }
+        match self.projection {
+            Projection::Perspective { fov } => write!(f, "fov={fov:?}"),
+            Projection::Orthographic { height } => write!(f, "ortho={height:?}"),
+        }
     }
 }
 

@@ -83,8 +83,18 @@ fn files_hold_a_catalogue_or_an_equation() {
     assert!(scene.domain.min.x < -3.0 && scene.domain.min.x > -4.0);
 
     let broken = file("broken.txt", "# a comment\nx^2 + * y");
-    let ResolveError::Equation(error) = error(text(&broken)) else { panic!("it cannot be read") };
-    assert_eq!(error.span.start, "# a comment\nx^2 + ".len());
+    let ResolveError::EquationInFile { file: named, error: fault } = error(text(&broken)) else {
+        panic!("it cannot be read")
+    };
+    assert_eq!(named, text(&broken));
+    assert_eq!(fault.span.start, "# a comment\nx^2 + ".len());
+
+    let marked = file("marked.txt", "\u{feff}x^2 + y^2 = 1\r\n");
+    resolve(text(&marked), None).expect("a byte order mark is no part of the equation");
+    let folder = marked.parent().expect("a folder");
+    assert!(matches!(error(text(folder)), ResolveError::Folder(_)));
+    let long = file("long.txt", &"#".repeat(2 << 20));
+    assert!(error(text(&long)).to_string().contains("longer than"));
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::{Colour, Picture, ShadeError};
 /// How the answer for a ray compares with the reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Agreement {
-    /// Both hit the same sheet; `dt` is the difference of t, in units of t.
+    /// Both hit the same sheet; `dt` is a distance along the ray, in units of space.
     Correct {
         /// Answer minus reference.
         dt: f64,
@@ -56,7 +56,7 @@ const KEYS: [(Agreement, &str, [f32; 3]); 6] = [
 /// | false hit | amber |
 /// | wrong sheet | vermilion |
 /// | undecided, or dt is NaN | grey |
-/// | not sampled | dark grey |
+/// | not sampled | the colour of the sample to the left, or else above, dimmed; dark grey without one |
 ///
 /// # Errors
 /// If there is not one agreement for each pixel of the view.
@@ -69,13 +69,39 @@ pub fn picture(view: &View, agreement: &[Agreement]) -> Result<Picture, ShadeErr
         keys.iter().find(|(k, ..)| *k == kind).map_or([0; 3], |(.., colour)| *colour)
     };
     let undecided = colour_of(Agreement::Undecided);
-    Picture::painted(view, describe(agreement), Some(legend(&palette, &keys)), |i| match agreement
-        [i]
-    {
+    let colour = |sample: usize| match agreement[sample] {
         Agreement::Correct { dt } if dt.is_nan() => undecided,
         Agreement::Correct { dt } => palette.at(position(dt)),
         other => colour_of(other),
+    };
+    let samples = samples(view, agreement);
+    Picture::painted(view, describe(agreement), Some(legend(&palette, &keys)), |i| {
+        match samples[i] {
+            Some(sample) if sample != i => dimmed(colour(sample)),
+            _ => colour(i),
+        }
     })
+}
+
+/// The sample that stands for each pixel: the last to its left, or the one that stands for the
+/// pixel above. Samples on a grid so fill their cells; single pixels could not be seen.
+fn samples(view: &View, agreement: &[Agreement]) -> Vec<Option<usize>> {
+    let mut samples: Vec<Option<usize>> = Vec::with_capacity(agreement.len());
+    for (i, given) in agreement.iter().enumerate() {
+        let left = i.checked_sub(1).filter(|_| i % view.width > 0).and_then(|j| samples[j]);
+        let above = i.checked_sub(view.width).and_then(|j| samples[j]);
+        let is_new = |sample: &usize| *sample >= i - i % view.width;
+        samples.push(match given {
+            Agreement::NotSampled => left.filter(is_new).or(above).or(left),
+            _ => Some(i),
+        });
+    }
+    samples
+}
+
+/// So dark that a pale colour does not pass for the grey of what is undecided.
+fn dimmed(colour: [u8; 3]) -> [u8; 3] {
+    Colour(0.15 * Colour::from_bytes(colour).0).bytes()
 }
 
 /// Where the logarithm of |dt| lies in the decades, 0 to 1; zero is at the least.
@@ -93,8 +119,13 @@ fn legend(palette: &Palette, keys: &[(Agreement, &str, [u8; 3])]) -> Legend {
             label: if d == 0 { "1".into() } else { format!("1e{d}") },
         })
         .collect();
-    let scale = Scale { title: "error in t".into(), palette: palette.clone(), ticks };
-    let keys = keys.iter().map(|(_, name, colour)| Key::new(*colour, *name)).collect();
+    let scale = Scale { title: "|dt|, in units of space".into(), palette: palette.clone(), ticks };
+    let label = |kind: Agreement, name: &str| match kind {
+        Agreement::NotSampled => format!("dim: {name}"),
+        _ => name.into(),
+    };
+    let keys = keys.iter().map(|(kind, name, colour)| Key::new(*colour, label(*kind, name)));
+    let keys = keys.collect();
     Legend { scale: Some(scale), keys }
 }
 
@@ -109,6 +140,23 @@ fn describe(agreement: &[Agreement]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn samples_fill_their_cells() {
+        use zeroset_raycast::{Camera, Domain};
+        let domain = Domain::new(glam::DVec3::NEG_ONE, glam::DVec3::ONE).unwrap();
+        let view = View::new(Camera::facing(&domain), 4, 3);
+        let mut agreement = [Agreement::NotSampled; 12];
+        assert_eq!(samples(&view, &agreement), [None; 12]);
+        for i in [0, 2, 8, 10] {
+            agreement[i] = Agreement::CorrectMiss;
+        }
+        let filled: Vec<_> = samples(&view, &agreement).into_iter().flatten().collect();
+        assert_eq!(filled, [0, 0, 2, 2, 0, 0, 2, 2, 8, 8, 10, 10]);
+        let picture = picture(&view, &agreement).unwrap();
+        let [full, dim] = [picture.pixels()[0], picture.pixels()[1]];
+        assert!(full != dim && picture.pixels()[5] == dim && picture.pixels()[8] == full);
+    }
 
     #[test]
     fn decades_are_even_and_clamped() {

@@ -4,6 +4,7 @@ use glam::Vec3;
 use zeroset_raycast::{Hits, View};
 
 use crate::colour::byte;
+use crate::legend::{Key, Legend};
 use crate::picture::check_normals;
 use crate::{Colour, Picture, ShadeError};
 
@@ -20,15 +21,24 @@ pub fn picture(view: &View, hits: &Hits) -> Result<Picture, ShadeError> {
     let background = Colour::oklch(0.23, 0.01, 270.0).bytes();
     let none = [128; 3];
     let description = "normals that face the eye, in world space: red, green, blue = 255(n+1)/2";
-    Picture::painted(view, description, None, |i| {
+    let keys = [("+x", Vec3::X), ("+y", Vec3::Y), ("+z", Vec3::Z)]
+        .into_iter()
+        .flat_map(|(name, n)| [(name.to_owned(), n), (name.replace('+', "-"), -n)])
+        .map(|(name, n)| Key::new(bytes(n), name))
+        .collect();
+    Picture::painted(view, description, Some(Legend { scale: None, keys }), |i| {
         if !hits.certificate[i].is_hit() {
             return background;
         }
         match seen(view, i, hits.normal[i]) {
-            Some(Seen { normal, .. }) => (0.5 * (normal + Vec3::ONE)).to_array().map(byte),
+            Some(Seen { normal, .. }) => bytes(normal),
             None => none,
         }
     })
+}
+
+fn bytes(normal: Vec3) -> [u8; 3] {
+    (0.5 * (normal + Vec3::ONE)).to_array().map(byte)
 }
 
 /// Which side of the zero set the eye sees.

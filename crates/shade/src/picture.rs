@@ -65,7 +65,7 @@ impl Picture {
         Self { description: description.into(), ..self }
     }
 
-    /// What the colours mean, where they are false.
+    /// What the colours mean.
     pub fn legend(&self) -> Option<&Legend> {
         self.legend.as_ref()
     }

@@ -3,6 +3,7 @@
 use glam::Vec3;
 use zeroset_raycast::{Hits, View};
 
+use crate::legend::{Key, Legend};
 use crate::normals::{Side, seen};
 use crate::picture::{check_count, check_normals};
 use crate::{Colour, Picture, ShadeError};
@@ -57,7 +58,13 @@ pub fn picture(view: &View, hits: &Hits, lights: &[Light]) -> Result<Picture, Sh
     let none = Colour::oklch(0.55, 0.0, 0.0).bytes();
     let background = Background::new(view);
 
-    Picture::painted(view, "Lambert shading; ivory where the gradient faces the eye", None, |i| {
+    let description = "Lambert shading; ivory where the gradient faces the eye";
+    let keys = vec![
+        Key::new(Colour(front).bytes(), "seen from f > 0"),
+        Key::new(Colour(back).bytes(), "seen from f < 0"),
+    ];
+    let legend = Legend { scale: None, keys };
+    Picture::painted(view, description, Some(legend), |i| {
         if !hits.certificate[i].is_hit() {
             return background.at(i / view.width);
         }

@@ -2,7 +2,6 @@
 
 mod table;
 
-use std::iter;
 use std::time::Duration;
 
 use glam::DVec3;
@@ -46,9 +45,9 @@ pub struct Record {
     pub equation: String,
     /// Parameters set away from their defaults: `a=0.3; b=1`.
     pub parameters: String,
-    /// The box's corners, and the ball's radius if there is one: `x0 y0 z0 x1 y1 z1 [r]`.
+    /// The box's corners, and the ball's radius if there is one: `x0,y0,z0,x1,y1,z1[,r]`.
     pub domain: String,
-    /// `perspective FOV` or `orthographic HEIGHT`, then eye, at and up; empty for a batch.
+    /// `eye=x,y,z,at=x,y,z,up=x,y,z` and `fov=DEGREES` or `ortho=HEIGHT`; empty for a batch.
     pub camera: String,
     /// Pixels in a row; for a batch, rays.
     pub width: usize,
@@ -60,6 +59,8 @@ pub struct Record {
     pub knobs: String,
     /// The bracket width asked for with the shared knob, in t.
     pub precision: Option<f64>,
+    /// What was asked of the method: `first`, `first-with-normal` or `any`; empty if it failed.
+    pub request: String,
     /// `ok`, or why there is no answer.
     pub outcome: String,
     /// Time to prepare, milliseconds.
@@ -160,7 +161,7 @@ impl Record {
             ..Self::default()
         };
         if let Rays::View(view) = rays {
-            shared.camera = camera_text(&view.camera);
+            shared.camera = view.camera.to_string();
             (shared.width, shared.height) = (view.width, view.height);
         }
         if let Some(truths) = &comparison.truths {
@@ -181,6 +182,7 @@ impl Record {
             }
         };
         self.outcome = "ok".into();
+        self.request = outcome.hits.request.name().into();
         self.prepare_ms = Some(milliseconds(outcome.prepare));
         if let Some(times) = outcome.times {
             self.runs = times.runs;
@@ -235,17 +237,23 @@ impl Record {
 
     /// The view, read back exactly; `None` for a batch, or if the column is damaged.
     pub fn view(&self) -> Option<View> {
-        let (projection, rest) = self.camera.split_once(' ')?;
-        let n = numbers(rest)?;
-        let &[size, ..] = &n[..] else { return None };
-        let projection = match projection {
-            "perspective" => Projection::Perspective { fov: size },
-            "orthographic" => Projection::Orthographic { height: size },
+        let values = |key: &str| {
+            let (_, rest) = self.camera.split_once(&format!("{key}="))?;
+            // Up to the next key.
+            let end = rest.find('=').map_or(Some(rest.len()), |next| rest[..next].rfind(','))?;
+            numbers(&rest[..end])
+        };
+        let vector = |key| match values(key)?[..] {
+            [x, y, z] => Some(DVec3::new(x, y, z)),
+            _ => None,
+        };
+        let projection = match (values("fov").as_deref(), values("ortho").as_deref()) {
+            (Some(&[fov]), None) => Projection::Perspective { fov },
+            (None, Some(&[height])) => Projection::Orthographic { height },
             _ => return None,
         };
-        let [eye, at, up] = [1, 4, 7].map(|i| n.get(i..i + 3).map(DVec3::from_slice));
-        let camera = Camera { eye: eye?, at: at?, up: up?, projection };
-        Some(View::new(camera, self.width, self.height))
+        let [eye, at, up] = [vector("eye")?, vector("at")?, vector("up")?];
+        Some(View::new(Camera { eye, at, up, projection }, self.width, self.height))
     }
 }
 
@@ -254,22 +262,13 @@ fn domain_text(domain: &Domain) -> String {
     text(corners.into_iter().flatten().chain(domain.ball))
 }
 
-fn camera_text(camera: &Camera) -> String {
-    let (projection, size) = match camera.projection {
-        Projection::Perspective { fov } => ("perspective", fov),
-        Projection::Orthographic { height } => ("orthographic", height),
-    };
-    let vectors = [camera.eye, camera.at, camera.up].map(|v| v.to_array());
-    format!("{projection} {}", text(iter::once(size).chain(vectors.into_iter().flatten())))
-}
-
 /// Numbers with as many digits as it takes to read them back exactly.
 fn text(numbers: impl Iterator<Item = f64>) -> String {
-    numbers.map(|x| format!("{x:?}")).collect::<Vec<_>>().join(" ")
+    numbers.map(|x| format!("{x:?}")).collect::<Vec<_>>().join(",")
 }
 
 fn numbers(text: &str) -> Option<Vec<f64>> {
-    text.split_whitespace().map(|word| word.parse().ok()).collect()
+    text.split(',').map(|word| word.parse().ok()).collect()
 }
 
 fn pairs<'a>(pairs: impl Iterator<Item = (&'a str, &'a str)>) -> String {
@@ -298,10 +297,10 @@ mod tests {
         for projection in [camera.projection, Projection::Orthographic { height: third }] {
             camera.projection = projection;
             (record.width, record.height) = (64, 48);
-            record.camera = camera_text(&camera);
+            record.camera = camera.to_string();
             assert_eq!(record.view(), Some(View::new(camera, 64, 48)));
         }
         assert_eq!(Record::default().view(), None);
-        assert_eq!(Record { camera: "perspective 1 2".into(), ..record }.view(), None);
+        assert_eq!(Record { camera: "fov=1,eye=1,2".into(), ..record }.view(), None);
     }
 }

@@ -17,7 +17,7 @@ use zeroset_raycast::{
 };
 
 use crate::implicit::Implicit;
-use crate::{normals, tiles};
+use crate::{isa, normals, tiles};
 use march::{March, Segment};
 use rule::Settings;
 
@@ -93,12 +93,6 @@ impl Default for Amp {
 /// More bisections than single precision resolves.
 const MAX_BISECTIONS: u32 = 64;
 const ADAPTATIONS: [(&str, Adaptation); 2] = [("on", Adaptation::On), ("off", Adaptation::Off)];
-const ISAS: [(&str, Option<Isa>); 4] = [
-    ("auto", None),
-    ("portable", Some(Isa::Portable)),
-    ("avx2", Some(Isa::Avx2)),
-    ("avx512", Some(Isa::Avx512)),
-];
 
 impl Method for Amp {
     fn id(&self) -> &'static str {
@@ -125,14 +119,14 @@ impl Method for Amp {
     }
 
     fn knobs(&self) -> Vec<Knob> {
-        let auto = |x: Option<f64>| x.map_or_else(|| "auto".into(), |x| x.to_string());
+        let auto = |x: Option<f64>| x.map_or_else(|| "auto".into(), knob::text);
         let knob = |name, value, doc| Knob { name, value, doc };
-        let name = |adaptation| name_of(&ADAPTATIONS, &adaptation);
+        let name = |adaptation| knob::name(&ADAPTATIONS, &adaptation);
         vec![
             knob(
                 "step",
                 auto(self.step),
-                "b, the base step in units of space; auto: the published step, or 2.5 pixels of a view of 512 rows",
+                "b, the base step in units of space; auto (the default): the published step, or 2.5 pixels of a view of 512 rows",
             ),
             knob(
                 "scale",
@@ -155,22 +149,18 @@ impl Method for Amp {
                 self.bisections.to_string(),
                 "halvings of the isolated interval, 0 to 64 (default 10)",
             ),
-            knob("epsilon", self.epsilon.to_string(), "the surface is S = epsilon (default 0)"),
+            knob("epsilon", knob::text(self.epsilon), "the surface is S = epsilon (default 0)"),
             knob(
                 "distance_adaptation",
                 name(self.distance_adaptation),
-                "on, or off: |S| does not change the step",
+                "on, or off: |S| does not change the step (default on)",
             ),
             knob(
                 "silhouette_adaptation",
                 name(self.silhouette_adaptation),
-                "on, or off: |grad S . D| does not change the step",
+                "on, or off: |grad S . D| does not change the step (default on)",
             ),
-            knob(
-                "isa",
-                name_of(&ISAS, &self.isa),
-                "instruction set: auto, portable, avx2 or avx512; answers do not depend on it",
-            ),
+            isa::knob(self.isa),
         ]
     }
 
@@ -181,7 +171,7 @@ impl Method for Amp {
             "tau1" => self.tau1 = positive(knob, value)?,
             "tau2" => self.tau2 = positive(knob, value)?,
             "tau3" => self.tau3 = positive(knob, value)?,
-            "bisections" => self.bisections = count(knob, value)?,
+            "bisections" => self.bisections = knob::whole(knob, value, [0, MAX_BISECTIONS])?,
             "epsilon" => self.epsilon = knob::number(knob, value, [-1e30, 1e30])?,
             "distance_adaptation" => {
                 self.distance_adaptation = knob::choice(knob, value, &ADAPTATIONS)?;
@@ -189,7 +179,7 @@ impl Method for Amp {
             "silhouette_adaptation" => {
                 self.silhouette_adaptation = knob::choice(knob, value, &ADAPTATIONS)?;
             }
-            "isa" => self.isa = knob::choice(knob, value, &ISAS)?,
+            "isa" => self.isa = isa::read(value)?,
             _ => return Err(knob::unknown(self.id(), knob, &self.knobs())),
         }
         Ok(())
@@ -219,23 +209,6 @@ fn positive(knob: &str, value: &str) -> Result<Option<f64>, KnobError> {
             expected: "auto or a number above 0".into(),
         }),
     }
-}
-
-/// A number of bisections.
-fn count(knob: &str, value: &str) -> Result<u32, KnobError> {
-    match value.trim().parse::<u32>() {
-        Ok(n) if n <= MAX_BISECTIONS => Ok(n),
-        _ => Err(KnobError::Value {
-            knob: knob.into(),
-            value: value.into(),
-            expected: format!("a whole number from 0 to {MAX_BISECTIONS}"),
-        }),
-    }
-}
-
-fn name_of<T: PartialEq>(choices: &[(&str, T)], value: &T) -> String {
-    let (name, _) = choices.iter().find(|(_, v)| v == value).expect("every value has a name");
-    (*name).into()
 }
 
 struct Prepared {

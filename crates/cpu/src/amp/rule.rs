@@ -57,9 +57,10 @@ impl Settings {
         }
         if longest / least > MAX_SAMPLES {
             return Err(Unsupported(format!(
-                "step {step} needs more than {MAX_SAMPLES} samples a ray in a domain {longest} \
-                 across; the least step here is {}",
-                4.0 * longest / MAX_SAMPLES
+                "step {step:?} needs more than {MAX_SAMPLES} samples a ray in a domain \
+                 {longest:?} across; the least step here is {:.3e}",
+                // Rounded up, so that it is no lie.
+                1.001 * 4.0 * longest / MAX_SAMPLES
             ))
             .into());
         }

@@ -19,7 +19,7 @@ use zeroset_raycast::{
 };
 
 use crate::implicit::Implicit;
-use crate::{normals, tiles};
+use crate::{isa, normals, tiles};
 use finish::{Finding, Finish};
 use march::{FIRST, Judge, MAX_DEPTH, March, Marcher, RawMarch, SetMarch, Verdict};
 use slab::{Axis, Bounds, Clock};
@@ -74,17 +74,6 @@ const ROUNDINGS: [(&str, Rounding); 3] =
     [("outward", Rounding::Outward), ("nudged", Rounding::Nudged), ("nearest", Rounding::Nearest)];
 const FINISHES: [(&str, Finishing); 2] =
     [("accept", Finishing::Accept), ("certify", Finishing::Certify)];
-const ISAS: [(&str, Option<Isa>); 4] = [
-    ("auto", None),
-    ("portable", Some(Isa::Portable)),
-    ("avx2", Some(Isa::Avx2)),
-    ("avx512", Some(Isa::Avx512)),
-];
-
-fn name_of<T: PartialEq>(choices: &[(&'static str, T)], value: &T) -> String {
-    let (name, _) = choices.iter().find(|(_, v)| v == value).expect("every value has a name");
-    (*name).into()
-}
 
 impl Method for Kmarch {
     fn id(&self) -> &'static str {
@@ -108,7 +97,7 @@ impl Method for Kmarch {
     fn knobs(&self) -> Vec<Knob> {
         let (depth, width) = match self.stop {
             Stop::Depth(depth) => (depth.to_string(), "off".to_string()),
-            Stop::Width(width) => ("off".to_string(), width.to_string()),
+            Stop::Width(width) => ("off".to_string(), knob::text(width)),
         };
         vec![
             Knob {
@@ -119,56 +108,39 @@ impl Method for Kmarch {
             Knob {
                 name: "width",
                 value: width,
-                doc: "epsilon: width of the last slabs in t, instead of depth",
+                doc: "epsilon: width of the last slabs in t, instead of depth (default off)",
             },
             Knob {
                 name: "rounding",
-                value: name_of(&ROUNDINGS, &self.rounding),
-                doc: "outward, nudged (the same on every instruction set) or nearest (the paper's, without proofs)",
+                value: knob::name(&ROUNDINGS, &self.rounding),
+                doc: "outward, nudged (the same on every instruction set) or nearest (the paper's, without proofs); default outward",
             },
             Knob {
                 name: "finish",
-                value: name_of(&FINISHES, &self.finish),
-                doc: "certify, or accept every last slab as the paper does",
+                value: knob::name(&FINISHES, &self.finish),
+                doc: "certify, or accept every last slab as the paper does (default certify)",
             },
             Knob {
                 name: "levels",
                 value: self.levels.to_string(),
                 doc: "depths beyond the stop that the certifying finish searches (default 4)",
             },
-            Knob {
-                name: "isa",
-                value: name_of(&ISAS, &self.isa),
-                doc: "instruction set: auto, portable, avx2 or avx512",
-            },
+            isa::knob(self.isa),
         ]
     }
 
     fn set(&mut self, knob: &str, value: &str) -> Result<(), KnobError> {
-        let integer = |max: u32| {
-            knob::number(knob, value, [0.0, f64::from(max)]).and_then(|x| {
-                if x.fract() == 0.0 {
-                    Ok(x as u32)
-                } else {
-                    Err(KnobError::Value {
-                        knob: knob.into(),
-                        value: value.into(),
-                        expected: format!("a whole number from 0 to {max}"),
-                    })
-                }
-            })
-        };
         match knob {
             // The other of the two says what stops; so that all knobs can be set from a record.
             "depth" | "width" if value.trim() == "off" => {}
-            "depth" => self.stop = Stop::Depth(integer(MAX_DEPTH)?),
+            "depth" => self.stop = Stop::Depth(knob::whole(knob, value, [0, MAX_DEPTH])?),
             "width" => {
                 self.stop = Stop::Width(knob::number(knob, value, [f64::MIN_POSITIVE, f64::MAX])?);
             }
             "rounding" => self.rounding = knob::choice(knob, value, &ROUNDINGS)?,
             "finish" => self.finish = knob::choice(knob, value, &FINISHES)?,
-            "levels" => self.levels = integer(MAX_DEPTH)?,
-            "isa" => self.isa = knob::choice(knob, value, &ISAS)?,
+            "levels" => self.levels = knob::whole(knob, value, [0, MAX_DEPTH])?,
+            "isa" => self.isa = isa::read(value)?,
             _ => return Err(knob::unknown(self.id(), knob, &self.knobs())),
         }
         Ok(())

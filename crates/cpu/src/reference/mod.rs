@@ -141,18 +141,18 @@ impl Method for Reference {
         vec![
             Knob {
                 name: "width",
-                value: self.width.to_string(),
-                doc: "width of the bracket of a root, in t (1e-12)",
+                value: knob::text(self.width),
+                doc: "width of the bracket of a root, in t (default 1e-12)",
             },
             Knob {
                 name: "bits",
                 value: self.bits.to_string(),
-                doc: "the most bits of precision, from 53 to 4096 (512)",
+                doc: "the most bits of precision, from 53 to 4096 (default 512)",
             },
             Knob {
                 name: "budget",
                 value: self.budget.to_string(),
-                doc: "the most pieces of a ray looked at in double precision (2048)",
+                doc: "the most pieces of a ray looked at in double precision (default 2048)",
             },
         ]
     }
@@ -160,8 +160,8 @@ impl Method for Reference {
     fn set(&mut self, name: &str, value: &str) -> Result<(), KnobError> {
         match name {
             "width" => self.width = knob::number(name, value, [0.0, 1e30])?,
-            "bits" => self.bits = knob::number(name, value, [53.0, 4096.0])? as u32,
-            "budget" => self.budget = knob::number(name, value, [1.0, 1e9])? as u32,
+            "bits" => self.bits = knob::whole(name, value, [53, 4096])?,
+            "budget" => self.budget = knob::whole(name, value, [1, 1_000_000_000])?,
             _ => return Err(knob::unknown(self.id(), name, &self.knobs())),
         }
         Ok(())

@@ -1,6 +1,7 @@
 //! A surface by id, file or equation.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::Path;
 
 use zeroset_expr::{Function, ParseError};
@@ -22,6 +23,9 @@ pub enum ResolveError {
     /// It looks like a file, but there is none.
     #[error("there is no file {0:?}")]
     NoFile(String),
+    /// It is a folder.
+    #[error("{0:?} is a folder; give a file that holds an equation, or a catalogue")]
+    Folder(String),
     /// The file holds several surfaces.
     #[error("{file} holds {} surfaces: choose one, as {file}#{}; there are {}", .ids.len(), .ids[0], .ids.join(", "))]
     Several {
@@ -46,6 +50,14 @@ pub enum ResolveError {
     /// The equation cannot be read.
     #[error(transparent)]
     Equation(#[from] ParseError),
+    /// The equation in the file cannot be read.
+    #[error("{file}: {error}")]
+    EquationInFile {
+        /// The file.
+        file: String,
+        /// The place in it.
+        error: ParseError,
+    },
 }
 
 fn near(suggestions: &[String]) -> String {
@@ -70,16 +82,17 @@ pub fn resolve(text: &str, own: Option<&Catalogue>) -> Result<Surface, ResolveEr
     if let Some(surface) = catalogues().find_map(|catalogue| catalogue.get(text)) {
         return Ok(surface.clone());
     }
-    if Path::new(text).is_file() {
+    if is_file(text) {
         return from_file(text, None);
     }
     if let Some((file, id)) = text.rsplit_once('#')
-        && Path::new(file).is_file()
+        && is_file(file)
     {
         return from_file(file, Some(id));
     }
     match Function::parse(text) {
         Ok(_) => Ok(Surface::new(text, text)),
+        Err(_) if Path::new(text).is_dir() => Err(ResolveError::Folder(text.into())),
         Err(_) if is_like_file(text) => Err(ResolveError::NoFile(text.into())),
         Err(error) => {
             let suggestions: Vec<String> = catalogues()
@@ -93,6 +106,28 @@ pub fn resolve(text: &str, own: Option<&Catalogue>) -> Result<Surface, ResolveEr
             }
             Err(error.into())
         }
+    }
+}
+
+/// Is there something to read, be it a pipe?
+fn is_file(text: &str) -> bool {
+    fs::metadata(text).is_ok_and(|entry| !entry.is_dir())
+}
+
+/// The text of a file that holds an equation.
+fn read(file: &str) -> Result<String, CatalogueError> {
+    /// Some devices never end.
+    const LONGEST: u64 = 1 << 20;
+    let mut text = String::new();
+    let read = File::open(file).and_then(|f| f.take(LONGEST + 1).read_to_string(&mut text));
+    let error = match read {
+        Ok(_) if text.len() as u64 <= LONGEST => None,
+        Ok(_) => Some(format!("it is longer than {LONGEST} bytes")),
+        Err(error) => Some(error.to_string()),
+    };
+    match error {
+        Some(error) => Err(CatalogueError::Unreadable { file: file.into(), error }),
+        None => Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).into()),
     }
 }
 
@@ -120,12 +155,9 @@ fn from_file(file: &str, id: Option<&str>) -> Result<Surface, ResolveError> {
             ids: vec!["an equation".into()],
         });
     }
-    let text = fs::read_to_string(path).map_err(|error| CatalogueError::Unreadable {
-        file: file.into(),
-        error: error.to_string(),
-    })?;
-    let equation = without_comments(&text);
-    Function::parse(&equation)?;
+    let equation = without_comments(&read(file)?);
+    Function::parse(&equation)
+        .map_err(|error| ResolveError::EquationInFile { file: file.into(), error })?;
     let stem =
         path.file_stem().map_or_else(|| file.into(), |stem| stem.to_string_lossy().into_owned());
     Ok(Surface::new(stem, equation))
