@@ -405,7 +405,10 @@ fn knobs_take_what_they_say_and_give_it_back() {
 #[test]
 fn what_single_precision_cannot_do_is_refused() {
     let refused = |method: Amp, scene: &Scene| match method.prepare(scene) {
-        Err(Error::Unsupported(why)) => why.to_string(),
+        Err(Error::Unsupported(why)) => {
+            assert_eq!(method.supports(scene), Err(why.clone()));
+            why.to_string()
+        }
         Err(other) => panic!("{other}"),
         Ok(_) => panic!("accepted"),
     };

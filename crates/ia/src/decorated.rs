@@ -34,6 +34,8 @@ pub struct Decorated<S> {
 /// What is known of the sign of all members.
 #[derive(Clone, Copy, PartialEq)]
 enum Side {
+    /// A side of its own, so that a point at 0 has no wider range than the boxes around it.
+    Zero,
     NotNegative,
     NotPositive,
     Both,
@@ -42,7 +44,9 @@ enum Side {
 impl Side {
     fn of<S: Scalar>(x: Interval<S, Set>) -> Self {
         let zero = S::from_f64(0.0);
-        if x.lo >= zero {
+        if x.lo >= zero && x.hi <= zero {
+            Self::Zero
+        } else if x.lo >= zero {
             Self::NotNegative
         } else if x.hi <= zero {
             Self::NotPositive
@@ -52,11 +56,16 @@ impl Side {
     }
 
     fn of_sum(self, other: Self) -> Self {
-        if self == other { self } else { Self::Both }
+        match (self, other) {
+            (Self::Zero, side) | (side, Self::Zero) => side,
+            _ if self == other => self,
+            _ => Self::Both,
+        }
     }
 
     fn of_product(self, other: Self) -> Self {
         match (self, other) {
+            (Self::Zero, _) | (_, Self::Zero) => Self::Zero,
             (Self::Both, _) | (_, Self::Both) => Self::Both,
             _ if self == other => Self::NotNegative,
             _ => Self::NotPositive,
@@ -67,6 +76,7 @@ impl Side {
     fn cut<S: Scalar>(self, x: Interval<S, Set>) -> Interval<S, Set> {
         let zero = S::from_f64(0.0);
         match self {
+            Self::Zero if !x.is_empty() => Interval::point(zero),
             Self::NotNegative if x.lo < zero => Interval::new(zero, x.hi),
             Self::NotPositive if x.hi > zero => Interval::new(x.lo, zero),
             _ => x,
@@ -296,6 +306,19 @@ mod tests {
         assert_eq!((x.unary(Unary::Floor) - x).unary(Unary::Sin).decoration, Defined);
         assert_eq!(over(-2.0, -1.0).unary(Unary::Sqrt).decoration, Trivial);
         assert_eq!(over(f64::NAN, f64::NAN).decoration, Trivial);
+    }
+
+    #[test]
+    fn a_point_at_zero_has_no_wider_range_than_a_box_around_it() {
+        let (x, zero) = (over(0.5, 1.0), over(0.0, 0.0));
+        // Not positive for all y in [-1, 0], so its negative has a root for y = 0 too.
+        assert!((-(x * over(-1.0, 0.0))).unary(Unary::Sqrt).is_continuous());
+        assert!((-(x * zero)).unary(Unary::Sqrt).is_continuous());
+        assert!((-(zero + x * zero)).unary(Unary::Sqrt).is_continuous());
+        assert!((-zero.scale(&Constant::from_f64(0.1))).unary(Unary::Sqrt).is_continuous());
+        assert_eq!((zero * x).interval.bounds(), [0.0, 0.0]);
+        assert_eq!((zero / x).interval.bounds(), [0.0, 0.0]);
+        assert!((zero / zero).interval.is_empty() && zero.powi(-1).interval.is_empty());
     }
 
     #[test]

@@ -51,7 +51,7 @@ impl Suite<'_> {
 
     /// No certificate lies; most crossings are found.
     fn check_truth(&mut self, place: &str, rays: Rays<'_>, hits: &Hits) {
-        let indices: Vec<usize> = (0..rays.len()).filter(|i| rays.get(*i).is_valid()).collect();
+        let indices = valid(rays);
         let Some(truths) = self.truths(place, rays, &indices) else { return };
         let mut lies = Vec::new();
         let (mut crossings, mut found) = (0, 0);
@@ -74,7 +74,7 @@ impl Suite<'_> {
         }
     }
 
-    /// The truth about the rays, once for the view.
+    /// The truth about the rays of these indices, all that are valid; once for the view.
     fn truths(&mut self, place: &str, rays: Rays<'_>, indices: &[usize]) -> Option<Vec<Truth>> {
         let is_view = matches!(rays, Rays::View(_));
         if is_view && self.view_truths.is_some() {
@@ -162,8 +162,8 @@ impl Suite<'_> {
 
     /// Where it is proven whether there is a root, both requests and the truth agree.
     fn check_any(&mut self, rays: Rays<'_>, first: &Hits, any: &Hits) {
-        let all: Vec<usize> = (0..rays.len()).collect();
-        let Some(truths) = self.truths("any root", rays, &all) else { return };
+        let indices = valid(rays);
+        let Some(truths) = self.truths("any root", rays, &indices) else { return };
         let proven = |c: Certificate| match (c.is_hit(), c.contains(Certificate::ROOT)) {
             (true, true) => Some(true),
             (false, _) if c == Certificate::PROVEN_MISS => Some(false),
@@ -175,15 +175,17 @@ impl Suite<'_> {
             Class::Undecidable => None,
         };
         let contradicts = |a: Option<bool>, b: Option<bool>| a.is_some() && b.is_some() && a != b;
-        let bad: Vec<_> = (0..rays.len())
-            .filter(|&i| {
+        let bad: Vec<_> = indices
+            .iter()
+            .zip(&truths)
+            .filter(|&(&i, truth)| {
                 let claim = proven(any.certificate[i]);
                 contradicts(claim, proven(first.certificate[i]))
-                    || contradicts(claim, known(truths[i]))
+                    || contradicts(claim, known(*truth))
             })
-            .map(|i| {
+            .map(|(&i, truth)| {
                 let (any, first) = (any.certificate[i], first.certificate[i]);
-                format!("{:?}: any {any}, first {first}, {:?}", rays.get(i), truths[i])
+                format!("{:?}: any {any}, first {first}, {truth:?}", rays.get(i))
             })
             .collect();
         self.fail_any("any root agrees with the first where proven", "a view", &bad);
@@ -229,6 +231,11 @@ impl Suite<'_> {
             }
         }
     }
+}
+
+/// The indices of what are rays.
+fn valid(rays: Rays<'_>) -> Vec<usize> {
+    (0..rays.len()).filter(|&i| rays.get(i).is_valid()).collect()
 }
 
 pub(super) fn differences(a: &Hits, b: &Hits, rays: Rays<'_>) -> Vec<String> {

@@ -108,7 +108,8 @@ impl Method for Amp {
     }
 
     fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
-        Implicit::function(self.id(), scene).map(|_| ())
+        Implicit::function(self.id(), scene)?;
+        self.supported_step(&scene.domain, scene.published_step).map(|_| ())
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Intersector>, Error> {

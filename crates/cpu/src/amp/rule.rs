@@ -42,28 +42,7 @@ impl Settings {
         published_step: Option<f64>,
     ) -> Result<Self, Error> {
         let domain = &implicit.domain;
-        let step = amp.base_step(domain, published_step);
-        let longest = 2.0 * domain.radius();
-        let largest = domain.min.abs().max(domain.max.abs()).max_element().max(longest);
-        let least = 0.25 * step;
-        if !(largest < f64::from(f32::MAX) && least >= f64::from(f32::MIN_POSITIVE)) {
-            return Err(Unsupported(format!(
-                "{} computes in single precision, which does not hold a domain of this size ({} \
-                 across) and steps of {step}; give the equation in other units of length",
-                zeroset_raycast::Method::id(amp),
-                longest
-            ))
-            .into());
-        }
-        if longest / least > MAX_SAMPLES {
-            return Err(Unsupported(format!(
-                "step {step:?} needs more than {MAX_SAMPLES} samples a ray in a domain \
-                 {longest:?} across; the least step here is {:.3e}",
-                // Rounded up, so that it is no lie.
-                1.001 * 4.0 * longest / MAX_SAMPLES
-            ))
-            .into());
-        }
+        let step = amp.supported_step(domain, published_step)?;
         let scale = amp.scale.unwrap_or_else(|| size(&implicit.tape, domain));
         let tau1 = amp.tau1.unwrap_or(1.0);
         let unit = 0.5 * domain.longest_side();
@@ -77,12 +56,44 @@ impl Settings {
             bisections: amp.bisections,
             distance_adaptation: amp.distance_adaptation,
             silhouette_adaptation: amp.silhouette_adaptation,
-            longest,
+            longest: 2.0 * domain.radius(),
         })
     }
 }
 
 impl Amp {
+    /// The base step in a domain.
+    ///
+    /// # Errors
+    /// If single precision does not hold the domain and the step, or a ray needs too many samples.
+    pub(super) fn supported_step(
+        &self,
+        domain: &Domain,
+        published_step: Option<f64>,
+    ) -> Result<f64, Unsupported> {
+        let step = self.base_step(domain, published_step);
+        let longest = 2.0 * domain.radius();
+        let largest = domain.min.abs().max(domain.max.abs()).max_element().max(longest);
+        let least = 0.25 * step;
+        if !(largest < f64::from(f32::MAX) && least >= f64::from(f32::MIN_POSITIVE)) {
+            return Err(Unsupported(format!(
+                "{} computes in single precision, which does not hold a domain of this size ({} \
+                 across) and steps of {step}; give the equation in other units of length",
+                zeroset_raycast::Method::id(self),
+                longest
+            )));
+        }
+        if longest / least > MAX_SAMPLES {
+            return Err(Unsupported(format!(
+                "step {step:?} needs more than {MAX_SAMPLES} samples a ray in a domain \
+                 {longest:?} across; the least step here is {:.3e}",
+                // Rounded up, so that it is no lie.
+                1.001 * 4.0 * longest / MAX_SAMPLES
+            )));
+        }
+        Ok(step)
+    }
+
     /// b: as set, as published, or from the pixel footprint.
     fn base_step(&self, domain: &Domain, published_step: Option<f64>) -> f64 {
         self.step.or(published_step).unwrap_or_else(|| {

@@ -1,0 +1,97 @@
+//! Every method of the registry conforms: on surfaces of the catalogue of every kind, and on equations
+//! as they are typed.
+
+use glam::DVec3;
+use zeroset_bench::Registry;
+use zeroset_bench::conformance::check;
+use zeroset_raycast::catalogue::resolve;
+use zeroset_raycast::{Domain, Scene};
+
+/// Checks every method on a surface.
+fn conforms(text: &str) {
+    let surface = resolve(text, None).unwrap_or_else(|error| panic!("{text}: {error}"));
+    conforms_on(&surface.scene().unwrap_or_else(|error| panic!("{text}: {error:?}")));
+}
+
+/// Checks every method on a scene; the failures of all are told at once.
+fn conforms_on(scene: &Scene) {
+    let registry = Registry::standard();
+    let mut told = Vec::new();
+    for method in registry.iter() {
+        let failures = check(method, scene);
+        told.extend(failures.iter().map(|failure| format!("{}: {failure}", method.id())));
+    }
+    assert!(told.is_empty(), "{}:\n{}", scene.id, told.join("\n"));
+}
+
+#[test]
+fn on_polynomials() {
+    conforms("torus");
+    conforms("tangle");
+}
+
+#[test]
+fn on_surfaces_with_many_nodes() {
+    conforms("labs-septic");
+    conforms("endrass-octic");
+}
+
+#[test]
+fn on_double_curves_and_crossing_sheets() {
+    conforms("steiner");
+    conforms("intersecting-planes");
+}
+
+#[test]
+fn on_poles() {
+    conforms("inverse-function");
+    conforms("blobby-knoll");
+    conforms("x/y + y/z - z/x = 1/2");
+}
+
+#[test]
+fn on_jumps() {
+    conforms("mod(x, 1/2) + floor(y + 0.3) - sign(z)*abs(z) + 0.2");
+    conforms("ceil(3*x) - sign(y - z) + mod(z, -0.7)");
+}
+
+#[test]
+fn on_kinks() {
+    conforms("absolute-value");
+    conforms("max(abs(x), abs(y), abs(z)) = 1");
+}
+
+#[test]
+fn on_waves_and_exponentials() {
+    conforms("scherk");
+    conforms("blobby");
+    conforms("atan2(y, x) = sin(4*z)");
+}
+
+#[test]
+fn on_real_powers() {
+    conforms("superquadric-0p75");
+    conforms("superquadric-2p5");
+    conforms("x^pi + y^0.3 = z");
+}
+
+#[test]
+fn on_sums_of_blobs() {
+    conforms("blinn-blob-ganacim");
+    conforms("sum(i, 1, 4, exp(-5*((x-cos(i))^2 + (y-sin(i))^2 + z^2))) = 0.4");
+}
+
+#[test]
+fn on_a_surface_that_w_moves() {
+    conforms("morph-hyperboloid-torus");
+    conforms("(1-w)*(x^2+y^2-1) + w*(y^2+z^2-1)");
+}
+
+#[test]
+fn on_domains_that_single_precision_does_not_hold() {
+    for half in [1e-45, 1e45] {
+        let sphere = resolve("sphere", None).expect("it is in the catalogue");
+        let domain = Domain::new(DVec3::splat(-half), DVec3::splat(half)).expect("it is a box");
+        conforms_on(&Scene { domain, ..sphere.scene().expect("it is well formed") });
+    }
+}
