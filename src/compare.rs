@@ -56,6 +56,10 @@ pub(crate) struct Compare {
     view: ViewKind,
     #[command(flatten)]
     knobs: MethodOptions,
+    /// Where the subsample of pixels starts that is judged if the reference is slow: at the first for
+    /// 0, else at one that depends on the number
+    #[arg(long, value_name = "N", default_value = "0")]
+    seed: u64,
     /// Prints the records as JSON instead of the table
     #[arg(long)]
     json: bool,
@@ -86,6 +90,7 @@ impl Compare {
         let options = Options {
             request: if normals { Request::FirstWithNormal } else { Request::First },
             runs: self.runs,
+            seed: self.seed,
             // Methods that were asked for by name run however long they take.
             frame: self.is_default_selection().then_some(SLOWEST_FRAME),
             ..Options::default()

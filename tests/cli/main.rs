@@ -119,9 +119,10 @@ fn compare_prints_a_table_and_writes_pictures_and_records() {
     let domain = "-1.0,-1.0,-1.0,1.0,1.0,0.5";
     let view = ["--camera", camera, "--domain", domain, "--view", "certificate"];
     let small = ["compare", equation, "--methods", "kmarch", "--size", "8x8", "--out", "p"];
-    done(dir.path(), &[&small[..], &view].concat());
+    let seed = ["--seed", "7"];
+    done(dir.path(), &[&small[..], &view, &seed].concat());
     let row = records(&dir.path().join("p/records.csv")).remove(0);
-    assert_eq!((row.camera.as_str(), row.domain.as_str()), (camera, domain));
+    assert_eq!((row.camera.as_str(), row.domain.as_str(), row.seed), (camera, domain, 7));
     assert_eq!((row.equation.as_str(), row.request.as_str()), (equation, "first"));
 
     // A second run adds its rows, and prints them.

@@ -22,6 +22,8 @@ pub struct Options {
     pub frame: Option<Duration>,
     /// How long the reference may take; beyond, an even subsample is judged. Zero judges nothing.
     pub judging: Duration,
+    /// Where an even subsample starts: at the first ray for 0.
+    pub seed: u64,
     /// How far from the first root a hit may lie; by default a pixel's footprint for views, and
     /// 1e-3 of the domain's longest side for batches.
     pub tolerance: Option<Tolerance>,
@@ -35,6 +37,7 @@ impl Default for Options {
             timing: Duration::from_secs(5),
             frame: None,
             judging: Duration::from_secs(8),
+            seed: 0,
             tolerance: None,
         }
     }
@@ -160,7 +163,7 @@ pub fn compare(
 ) -> Comparison {
     let truths = options.is_judged().then(|| {
         let oracle = truth::reference(scene)?;
-        classify(&oracle, rays, options.judging, progress, watch)
+        classify(&oracle, rays, options.judging, options.seed, progress, watch)
     });
     run_all(truths, scene, rays, methods, options, progress, watch)
 }
@@ -175,8 +178,9 @@ pub fn compare_with(
     progress: &Progress,
     watch: &mut dyn FnMut(Stage, f64),
 ) -> Comparison {
-    let truths =
-        options.is_judged().then(|| classify(oracle, rays, options.judging, progress, watch));
+    let truths = options
+        .is_judged()
+        .then(|| classify(oracle, rays, options.judging, options.seed, progress, watch));
     run_all(truths, scene, rays, methods, options, progress, watch)
 }
 
@@ -219,6 +223,7 @@ fn classify(
     oracle: &dyn Oracle,
     rays: Rays<'_>,
     budget: Duration,
+    seed: u64,
     progress: &Progress,
     watch: &mut dyn FnMut(Stage, f64),
 ) -> Result<Truths, Error> {
@@ -230,7 +235,7 @@ fn classify(
     let start = Instant::now();
     let mut known: Vec<Option<Truth>> = vec![None; rays.len()];
     let mut count = 0;
-    let mut sample = Sample::coarsest(FIRST, rays);
+    let mut sample = Sample::coarsest(FIRST, seed, rays);
     loop {
         let new: Vec<_> = sample.indices.iter().copied().filter(|i| known[*i].is_none()).collect();
         for indices in new.chunks(chunk) {

@@ -358,7 +358,7 @@ mod tests {
         hits.set(4, hit(Certificate::POSSIBLE_HIT, 1.0, 1.0));
         hits.set(6, hit(Certificate::ROOT_HIT, 1.0, 1.0));
         let truths = Truths {
-            sample: Sample { indices: vec![0, 1, 2, 3, 4, 5], step: 1, rays: 7 },
+            sample: Sample { indices: vec![0, 1, 2, 3, 4, 5], seed: 0, step: 1, rays: 7 },
             truths: vec![ROOT, ROOT, TOUCH, NONE, NONE, UNKNOWN],
         };
         let judgement = judge(rays, &hits, &truths, Tolerance::Distance(0.1));

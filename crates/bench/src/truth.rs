@@ -45,6 +45,8 @@ pub struct Sample {
     pub indices: Vec<usize>,
     /// Every how many-th: in both axes of a view, or along a batch. 1 is all.
     pub step: usize,
+    /// Where the grid starts: at the first ray for 0, else at one that depends on the number.
+    pub seed: u64,
     /// How many rays there are.
     pub rays: usize,
 }
@@ -64,22 +66,33 @@ impl Sample {
     /// # Panics
     /// If `step` is 0.
     pub fn every(step: usize, rays: Rays<'_>) -> Self {
+        Self::grid(step, 0, rays)
+    }
+
+    /// Every `step`-th ray from one that the seed chooses. Where one step divides another, the grid of
+    /// the one holds that of the other.
+    fn grid(step: usize, seed: u64, rays: Rays<'_>) -> Self {
+        let bits = scattered(seed);
+        let from = |bits: u64| (bits % step as u64) as usize;
         let indices = match rays {
-            Rays::View(view) => (0..view.height)
+            Rays::View(view) => (from(bits & 0xffff_ffff)..view.height)
                 .step_by(step)
-                .flat_map(|row| (0..view.width).step_by(step).map(move |c| row * view.width + c))
+                .flat_map(|row| {
+                    let columns = (from(bits >> 32)..view.width).step_by(step);
+                    columns.map(move |column| row * view.width + column)
+                })
                 .collect(),
-            Rays::Batch(batch) => (0..batch.rays.len()).step_by(step).collect(),
+            Rays::Batch(batch) => (from(bits)..batch.rays.len()).step_by(step).collect(),
         };
-        Self { indices, step, rays: rays.len() }
+        Self { indices, step, seed, rays: rays.len() }
     }
 
     /// The sample with the greatest step, a power of two, that has at least `least` rays; all rays
     /// if there are fewer.
-    pub fn coarsest(least: usize, rays: Rays<'_>) -> Self {
-        let mut sample = Self::every(1, rays);
+    pub fn coarsest(least: usize, seed: u64, rays: Rays<'_>) -> Self {
+        let mut sample = Self::grid(1, seed, rays);
         loop {
-            let coarser = Self::every(2 * sample.step, rays);
+            let coarser = Self::grid(2 * sample.step, seed, rays);
             if coarser.indices.len() < least.max(2) {
                 return sample;
             }
@@ -89,13 +102,21 @@ impl Sample {
 
     /// The sample of half the step, which holds this one; `None` for all rays.
     pub fn finer(&self, rays: Rays<'_>) -> Option<Self> {
-        (self.step > 1).then(|| Self::every(self.step / 2, rays))
+        (self.step > 1).then(|| Self::grid(self.step / 2, self.seed, rays))
     }
 
     /// Are all rays in it?
     pub fn is_all(&self) -> bool {
         self.indices.len() == self.rays
     }
+}
+
+/// A number's bits spread over all 64, the same each time; 0 for 0. Steps are powers of two, so that
+/// the lowest bits must vary.
+fn scattered(seed: u64) -> u64 {
+    let x = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let x = (x ^ (x >> 32)).wrapping_mul(0xd6e8_feb8_6659_fd93);
+    x ^ (x >> 32)
 }
 
 impl Truths {
@@ -147,15 +168,34 @@ mod tests {
         assert!(Sample::every(1, rays).is_all());
         assert_eq!(Sample::every(3, rays).indices, [0, 3, 6, 21, 24, 27]);
         assert_eq!(Sample::every(1000, rays).indices, [0]);
-        let coarsest = Sample::coarsest(3, rays);
+        let coarsest = Sample::coarsest(3, 0, rays);
         assert_eq!((coarsest.step, &coarsest.indices[..]), (4, &[0, 4, 28, 32][..]));
         let finer = coarsest.finer(rays).unwrap();
         assert_eq!(finer.step, 2);
         assert!(coarsest.indices.iter().all(|i| finer.indices.contains(i)));
         assert!(finer.finer(rays).unwrap().is_all());
-        assert_eq!(Sample::coarsest(1000, rays).finer(rays), None);
+        assert_eq!(Sample::coarsest(1000, 0, rays).finer(rays), None);
         let batch = RayBatch::new(Vec::new());
-        assert!(Sample::coarsest(64, Rays::Batch(&batch)).is_all());
+        assert!(Sample::coarsest(64, 0, Rays::Batch(&batch)).is_all());
+    }
+
+    #[test]
+    fn seeds_choose_where_samples_start() {
+        let view = view(64, 48);
+        let rays = Rays::View(&view);
+        let mut starts = std::collections::HashSet::new();
+        for seed in 0..64 {
+            let mut sample = Sample::coarsest(12, seed, rays);
+            assert_eq!((sample.step, sample.indices.len()), (16, 12));
+            starts.insert(sample.indices[0]);
+            while let Some(finer) = sample.finer(rays) {
+                assert!(sample.indices.iter().all(|i| finer.indices.contains(i)), "{seed}");
+                sample = finer;
+            }
+            assert!(sample.is_all());
+        }
+        assert!(starts.len() > 32 && starts.contains(&0), "{starts:?}");
+        assert_eq!(Sample::coarsest(12, 0, rays), Sample::every(16, rays));
     }
 
     #[test]

@@ -99,6 +99,8 @@ pub struct Record {
     pub miss: usize,
     /// Every how many-th ray (pixel, in both axes) was judged; 0 if none.
     pub judged_step: usize,
+    /// The seed of where they start.
+    pub seed: u64,
     /// How many were judged.
     pub judged: usize,
     /// Judged rays whose first root is a crossing.
@@ -166,6 +168,7 @@ impl Record {
         }
         if let Some(truths) = &comparison.truths {
             shared.judged_step = truths.sample.step;
+            shared.seed = truths.sample.seed;
         }
         comparison.runs.iter().map(|run| shared.clone().with_run(run)).collect()
     }
