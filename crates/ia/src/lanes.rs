@@ -150,7 +150,7 @@ pub mod embedded {
     use fearless_simd::x86::Avx512;
 
     use super::Lanes;
-    use crate::real::forward_operators;
+    use crate::real::{forward, forward_operators};
     use crate::{Packet, Real};
 
     const DOWN: i32 = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
@@ -207,38 +207,7 @@ pub mod embedded {
         fn splat(self, c: f32) -> Self {
             Self(self.0.splat(c))
         }
-        #[inline(always)]
-        fn sqrt(self) -> Self {
-            Self(self.0.sqrt())
-        }
-        #[inline(always)]
-        fn abs(self) -> Self {
-            Self(self.0.abs())
-        }
-        #[inline(always)]
-        fn floor(self) -> Self {
-            Self(self.0.floor())
-        }
-        #[inline(always)]
-        fn min(self, other: Self) -> Self {
-            Self(self.0.min(other.0))
-        }
-        #[inline(always)]
-        fn max(self, other: Self) -> Self {
-            Self(self.0.max(other.0))
-        }
-        #[inline(always)]
-        fn select_lt(self, other: Self, x: Self, y: Self) -> Self {
-            Self(self.0.select_lt(other.0, x.0, y.0))
-        }
-        #[inline(always)]
-        fn down(self) -> Self {
-            Self(self.0.down())
-        }
-        #[inline(always)]
-        fn up(self) -> Self {
-            Self(self.0.up())
-        }
+        forward! { sqrt(); abs(); floor(); min(o); max(o); select_lt(o, x, y); down(); up(); }
         #[inline(always)]
         fn map<const N: usize, const M: usize>(
             x: [Self; N],

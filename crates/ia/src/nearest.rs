@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::real::forward_operators;
+use crate::real::{forward, forward_operators};
 use crate::{Constant, Packet, Real, Scalar};
 
 /// The real `R` with marks that do nothing: arithmetic as the papers have it, which proves nothing.
@@ -48,30 +48,7 @@ where
     fn splat(self, c: Self::Scalar) -> Self {
         Nearest(self.0.splat(c.0))
     }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Nearest(self.0.sqrt())
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Nearest(self.0.abs())
-    }
-    #[inline(always)]
-    fn floor(self) -> Self {
-        Nearest(self.0.floor())
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Nearest(self.0.min(other.0))
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Nearest(self.0.max(other.0))
-    }
-    #[inline(always)]
-    fn select_lt(self, other: Self, x: Self, y: Self) -> Self {
-        Nearest(self.0.select_lt(other.0, x.0, y.0))
-    }
+    forward! { sqrt(); abs(); floor(); min(o); max(o); select_lt(o, x, y); }
     #[inline(always)]
     fn down(self) -> Self {
         self

@@ -294,6 +294,17 @@ macro_rules! forward_operators {
 }
 pub(crate) use forward_operators;
 
+/// Operations of a real in a tuple of one: what the real inside gives.
+macro_rules! forward {
+    ($($name:ident($($o:ident),*);)*) => {$(
+        #[inline(always)]
+        fn $name(self, $($o: Self),*) -> Self {
+            Self(self.0.$name($($o.0),*))
+        }
+    )*};
+}
+pub(crate) use forward;
+
 /// Two reals side by side: twice the lanes, so that one decoded operation feeds two vectors.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<R>(pub R, pub R);
