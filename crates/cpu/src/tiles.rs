@@ -72,6 +72,7 @@ impl Answers {
         Self { indices, hits, work }
     }
 
+    /// Puts them where they belong, and adds up their work.
     fn store(&self, (hits, work): &mut (&mut Hits, Work)) {
         for (index, hit) in self.indices.iter().zip(&self.hits) {
             hits.set(*index, *hit);

@@ -48,9 +48,17 @@ fn a_pole_is_no_root_and_costs_the_first_bit_only_where_it_is_touched() {
     let before = one("1/(x-0.3)+1/0.8", across);
     assert_eq!(before.certificate, Certificate::PROVEN_HIT);
     assert!(before.bracket[0] <= 2.5 && 2.5 <= before.bracket[1], "{before:?}");
-    for equation in ["tan(3*x)+9", "log(x+0.3)", "1/x^2-1e3"] {
+    // Poles of tan at x = -0.5236 and 0.5236; roots at atan(-9) / 3 = -0.4867, and at 1/1000^(1/2).
+    // log is undefined up to x = -0.3 and -inf from there: no enclosure before the root holds 0.
+    for (equation, root, certificate) in [
+        ("tan(3*x)+9", 2.513_347_0, Certificate::ROOT_HIT),
+        ("log(x+0.3)", 3.7, Certificate::PROVEN_HIT),
+        ("1/x^2-1e3", 2.968_377_2, Certificate::PROVEN_HIT),
+    ] {
         let hit = one(equation, across);
-        assert!(!hit.certificate.contains(Certificate::HIT) || hit.bracket[0] > 2.0, "{hit:?}");
+        assert_eq!(hit.certificate, certificate, "{equation}: {hit:?}");
+        let [lo, hi] = hit.bracket;
+        assert!(lo - 1e-6 <= root && root <= hi + 1e-6 && hi - lo < 1e-2, "{equation}: {hit:?}");
     }
 }
 
@@ -93,9 +101,9 @@ fn a_gap_in_the_domain_of_a_function_is_no_root() {
         let hit = one(equation, ray);
         assert!(!hit.certificate.contains(Certificate::ROOT), "{hit:?}");
     }
-    // Undefined everywhere: nothing is there.
+    // Undefined everywhere: nothing is there, and that is proved.
     let nowhere = one("sqrt(-1-x^2)", ray([-3.0, 0.1, 0.2], [1.0, 0.0, 0.0]));
-    assert!(!nowhere.certificate.is_hit(), "{nowhere:?}");
+    assert_eq!(nowhere.certificate, Certificate::PROVEN_MISS, "{nowhere:?}");
 }
 
 #[test]

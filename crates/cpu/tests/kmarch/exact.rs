@@ -58,8 +58,8 @@ fn judge(
     assert!(lo <= hi);
     if hit.certificate.contains(Certificate::FIRST) {
         // A root at `lo` itself is in the bracket.
-        let before = roots.within(from, &lo) - roots.within(&lo, &lo);
-        assert!(lo <= *from || before == 0, "{equation}: {ray:?} {hit:?} is not the first");
+        let is_first = lo <= *from || roots.within(from, &lo) == roots.within(&lo, &lo);
+        assert!(is_first, "{equation}: {ray:?} {hit:?} is not the first");
     }
     if hit.certificate.contains(Certificate::ROOT) {
         let (lo, hi) = (lo.max(from.clone()), hi.min(to.clone()));
@@ -87,7 +87,7 @@ fn check_all(equation: &str, half: f64, f: impl Fn([Poly; 3]) -> Poly) {
         if i < 2 {
             // Where the certifying finish has all it needs, most is proved.
             assert!(100 * tally.hits >= 95 * tally.crossed, "{equation}: {tally:?}");
-            assert!(100 * tally.misses >= 90 * tally.clear, "{equation}: {tally:?}");
+            assert!(100 * tally.misses >= 95 * tally.clear, "{equation}: {tally:?}");
         }
     }
 }
