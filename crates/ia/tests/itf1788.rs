@@ -43,3 +43,50 @@ files! {
     div 1, exp 0, exp10 0, exp2 0, floor 0, log 0, log10 0, log2 0, max 0, min 0, mul 1, neg 1, pow 0,
     pown 0, recip 0, sign 0, sin 0, sinh 0, sqr 0, sqrt 0, sub 1, tan 0, tanh 0,
 }
+
+/// The tally of the rows of a file in single precision, and the place of the file.
+fn judged(name: &str, text: &str) -> Tally {
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::write(&file, text).unwrap();
+    Tally::of(&vectors::read(&file).unwrap(), Arithmetic::Single)
+}
+
+#[test]
+fn the_form_with_results_in_single_precision_is_read() {
+    let tally = judged(
+        "rounded.csv",
+        "op,a0,b0,a1,b1,n,lo32,hi32\n\
+         add,1,2,0x1p-1,0.5,,1.5,2.5\n\
+         pown,-2,3,,,2,0,9\n\
+         sqrt,empty,empty,,,,empty,empty\n\
+         log,-inf,0,,,,empty,empty\n\
+         fma,1,1,1,1,,2,2\n",
+    );
+    assert_eq!((tally.rows, tally.run, tally.violations.len()), (5, 4, 0), "{tally:?}");
+    assert_eq!(tally.skipped.into_iter().collect::<Vec<_>>(), [("no operation fma".into(), 1)]);
+}
+
+#[test]
+fn what_is_wrong_is_told() {
+    let header = "op,k0,a0,b0,d0,k1,a1,b1,d1,ok0,oa0,ob0,od0\n";
+    for (row, is_wrong) in [
+        ("add,iv,1,1,com,iv,2,2,com,iv,3,3,com", false),
+        ("add,iv,1,1,com,iv,2,2,com,iv,3,3.5,com", true),
+        ("add,iv,1,1,com,iv,2,2,com,iv,-inf,3,com", true),
+        ("sqrt,iv,-1,1,com,,,,,iv,0,1,trv", false),
+        // Too weak a decoration is sound, too strong a one is not.
+        ("sqrt,iv,-1,1,com,,,,,iv,0,1,com", false),
+        ("sqrt,iv,1,4,com,,,,,iv,1,2,def", true),
+        ("sqrt,iv,-2,-1,com,,,,,iv,0,0,trv", true),
+    ] {
+        let tally = judged("wrong.csv", &format!("{header}{row}\n"));
+        assert_eq!((tally.run, tally.violations.len()), (1, usize::from(is_wrong)), "{row}");
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    for (text, says) in [("x,y\n1,2\n", "columns op and a0"), ("op,a0\nadd,one\n", "no number")] {
+        let file = folder.join("unreadable.csv");
+        std::fs::write(&file, text).unwrap();
+        let error = vectors::read(&file).unwrap_err();
+        assert!(error.contains("unreadable.csv") && error.contains(says), "{error}");
+    }
+}

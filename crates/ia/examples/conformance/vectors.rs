@@ -1,8 +1,8 @@
 //! Test vectors for interval operations: reading them, and judging the crate by them.
 //!
 //! Two forms are read, by the names in the header:
-//! - `op, dec, k0, a0, b0, d0, .., ok0, oa0, ob0, od0, f32in`: intervals (`iv`), integers (`int`) and
-//!   decorations, with the tightest result in double precision;
+//! - `op, k0, a0, b0, d0, .., ok0, oa0, ob0, od0`: intervals (`iv`), integers (`int`) and decorations,
+//!   with the tightest result in double precision;
 //! - `op, a0, b0, .., n, lo32, hi32`: the tightest result in single precision; n is an exponent.
 
 use std::collections::HashMap;
@@ -21,7 +21,7 @@ type Bounds = Option<[f64; 2]>;
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     /// File and line.
-    pub(crate) place: String,
+    place: String,
     /// The operation's name.
     pub(crate) op: String,
     inputs: Vec<(Bounds, Decoration)>,
