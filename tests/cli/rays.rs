@@ -4,6 +4,11 @@ use std::fs;
 
 use crate::{HEADER, SPHERE, done, folder, run_with};
 
+/// The arguments that let a method answer the rays of a file.
+fn trace<'a>(method: &'a str, rays: &'a str, out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&["trace", SPHERE, "--method", method, "--rays", rays, "--out", out], more].concat()
+}
+
 /// A row of answers.
 #[derive(Debug, serde::Deserialize)]
 struct Answer {
@@ -29,19 +34,8 @@ fn rays_go_in_and_answers_come_out_in_order() {
     // Extra columns and another order are fine; the direction is counted as given.
     let rays = "note,dx,dy,dz,ox,oy,oz\nhit,0,0,2,0,0,-3\nmiss,1,0,0,0,0,-3\ninside,0,0,-1,0,0,0\n";
     for method in ["amp-sign", "kmarch", "reference"] {
-        let arguments = [
-            "trace",
-            SPHERE,
-            "--method",
-            method,
-            "--rays",
-            "-",
-            "--out",
-            "-",
-            "--precision",
-            "1e-6",
-        ];
-        let outcome = run_with(dir.path(), &arguments, rays);
+        let precision = ["--precision", "1e-6"];
+        let outcome = run_with(dir.path(), &trace(method, "-", "-", &precision), rays);
         assert_eq!(outcome.status, 0, "{}", outcome.stderr);
         let header = "ray,certificate,t_lo,t_hi,nx,ny,nz,points,gradients,intervals\n";
         assert!(outcome.stdout.starts_with(header), "{}", outcome.stdout);
@@ -64,19 +58,8 @@ fn rays_go_in_and_answers_come_out_in_order() {
 
         // The same through files.
         fs::write(dir.path().join("rays.csv"), rays).unwrap();
-        let arguments = [
-            "trace",
-            SPHERE,
-            "--method",
-            method,
-            "--rays",
-            "rays.csv",
-            "--out",
-            "answers.csv",
-            "--precision",
-            "1e-6",
-        ];
-        assert_eq!(done(dir.path(), &arguments), "");
+        let through_files = trace(method, "rays.csv", "answers.csv", &precision);
+        assert_eq!(done(dir.path(), &through_files), "");
         assert_eq!(fs::read_to_string(dir.path().join("answers.csv")).unwrap(), outcome.stdout);
     }
 }
@@ -85,14 +68,12 @@ fn rays_go_in_and_answers_come_out_in_order() {
 fn a_domain_given_replaces_that_of_the_catalogue() {
     let dir = folder();
     let rays = format!("{HEADER}\n0,0,-9,0,0,1\n");
-    let trace = |more: &[&str]| {
-        let arguments =
-            ["trace", SPHERE, "--method", "kmarch", "--rays", "-", "--out", "-"].as_slice();
-        let outcome = run_with(dir.path(), &[arguments, more].concat(), &rays);
+    let answer = |more: &[&str]| {
+        let outcome = run_with(dir.path(), &trace("kmarch", "-", "-", more), &rays);
         assert_eq!(outcome.status, 0, "{}", outcome.stderr);
         answers(&outcome.stdout).remove(0)
     };
-    assert!(trace(&[]).t_lo < 8.01);
-    assert!(trace(&["--domain", "-2,-2,0,2,2,2"]).t_lo > 9.99);
-    assert_eq!(trace(&["--domain", "-2,-2,1.5,2,2,2"]).certificate, "proven-miss");
+    assert!(answer(&[]).t_lo < 8.01);
+    assert!(answer(&["--domain", "-2,-2,0,2,2,2"]).t_lo > 9.99);
+    assert_eq!(answer(&["--domain", "-2,-2,1.5,2,2,2"]).certificate, "proven-miss");
 }
