@@ -38,7 +38,6 @@ pub(crate) fn cast(
 struct Answers {
     indices: Vec<usize>,
     hits: Vec<Hit>,
-    work: Work,
 }
 
 impl Answers {
@@ -67,17 +66,15 @@ impl Answers {
         let no_ray = Work { nonfinite: 1, ..Work::default() };
         hits.extend(invalid.iter().map(|_| Hit::miss(Certificate::MISS, no_ray)));
         indices.extend(invalid);
-        let mut work = Work::default();
-        hits.iter().for_each(|hit| work += hit.work);
-        Self { indices, hits, work }
+        Self { indices, hits }
     }
 
     /// Puts them where they belong, and adds up their work.
     fn store(&self, (hits, work): &mut (&mut Hits, Work)) {
         for (index, hit) in self.indices.iter().zip(&self.hits) {
             hits.set(*index, *hit);
+            *work += hit.work;
         }
-        *work += self.work;
     }
 }
 
