@@ -44,7 +44,7 @@ impl<'a, N: Number> Evaluator<'a, N> {
         self.run(inspect)
     }
 
-    /// Sets x, y or z (axis 0, 1, 2) for the next [`run`](Self::run).
+    /// Sets x, y or z (axis 0, 1, 2), or another of the tape's inputs, for the next [`run`](Self::run).
     #[inline(always)]
     pub fn bind(&mut self, axis: usize, value: N) {
         self.registers[axis] = value;

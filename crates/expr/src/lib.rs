@@ -25,6 +25,7 @@ mod prelude;
 mod print;
 mod rational;
 mod root;
+mod slope;
 pub mod tape;
 
 pub use error::{ParameterError, ParseError};

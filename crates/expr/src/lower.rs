@@ -29,7 +29,7 @@ pub(crate) fn lower(graph: &Graph, root: Id, prelude: &Prelude) -> Result<Tape, 
         let place = lowering.lower(id).map_err(|message| Fault { id, message })?;
         lowering.places.insert(id, place);
     }
-    let (instructions, output) = allocate(&lowering.ops, lowering.places[&root]);
+    let (instructions, output) = allocate(&lowering.ops, lowering.places[&root], 3);
     Ok(Tape::new(instructions, lowering.constants, output))
 }
 
@@ -141,9 +141,10 @@ impl Lowering<'_> {
     }
 }
 
-/// Gives values registers, which are used again once their value was used for the last time.
-fn allocate(ops: &[Op], output: u32) -> (Vec<Instruction>, Register) {
-    let mut last_uses = vec![0; ops.len() + 3];
+/// Gives values registers, which are used again once their value was used for the last time. The first
+/// `inputs` values are given, the k-th operation writes value `inputs + k`.
+pub(crate) fn allocate(ops: &[Op], output: u32, inputs: u32) -> (Vec<Instruction>, Register) {
+    let mut last_uses = vec![0; ops.len() + inputs as usize];
     for (i, op) in ops.iter().enumerate() {
         for value in op.operands().into_iter().flatten() {
             last_uses[value as usize] = i;
@@ -153,9 +154,9 @@ fn allocate(ops: &[Op], output: u32) -> (Vec<Instruction>, Register) {
     // The lowest free register first: a small file stays in the cache.
     let mut free = BinaryHeap::new();
     let used = |axis: u32| ops.iter().any(|op| op.operands().contains(&Some(axis)));
-    free.extend((0..3).filter(|&axis| axis != output && !used(axis)).map(Reverse));
-    let mut registers: Vec<Register> = vec![0, 1, 2];
-    let mut count = 3;
+    free.extend((0..inputs).filter(|&axis| axis != output && !used(axis)).map(Reverse));
+    let mut registers: Vec<Register> = (0..inputs).collect();
+    let mut count = inputs;
     let mut instructions = Vec::with_capacity(ops.len());
     for (i, op) in ops.iter().enumerate() {
         let [a, b] = op.operands();

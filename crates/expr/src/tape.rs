@@ -3,7 +3,7 @@
 use zeroset_ia::{Binary, Constant, Number, Unary};
 
 use crate::plan::Plan;
-use crate::{Evaluator, graph};
+use crate::{Evaluator, graph, slope};
 
 /// A place for an intermediate value; the first three hold x, y and z.
 pub type Register = u32;
@@ -125,7 +125,17 @@ impl Tape {
     /// # Panics
     /// If an instruction refers to a register that has not been written, or to a missing constant.
     pub fn new(instructions: Vec<Instruction>, constants: Vec<Constant>, output: Register) -> Self {
-        let mut written = vec![true; 3];
+        Self::with_inputs(3, instructions, constants, output)
+    }
+
+    /// A tape whose first registers hold the given number of inputs.
+    pub(crate) fn with_inputs(
+        inputs: u32,
+        instructions: Vec<Instruction>,
+        constants: Vec<Constant>,
+        output: Register,
+    ) -> Self {
+        let mut written = vec![true; inputs as usize];
         let read = |written: &[bool], r: Register| {
             let is_written = written.get(r as usize) == Some(&true);
             assert!(is_written, "register {r} is read before it is set");
@@ -144,6 +154,14 @@ impl Tape {
         read(&written, output);
         let plan = Plan::new(&instructions, output);
         Self { instructions, constants, registers: written.len(), output, plan }
+    }
+
+    /// The derivative along a direction, as a tape over (x, y, z, dx, dy, dz): an evaluator's
+    /// [`bind`](Evaluator::bind) takes the components of the direction as axes 3, 4 and 5.
+    ///
+    /// The rules, and what an interval's slope encloses, are those of [`Dual`](zeroset_ia::Dual).
+    pub fn slope(&self) -> Self {
+        slope::slope(self)
     }
 
     /// The operations in order.

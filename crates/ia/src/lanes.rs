@@ -7,135 +7,155 @@ use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f32x16, i32x16, mask32x16};
+use fearless_simd::{
+    Level, f32x4, f32x8, f32x16, i32x4, i32x8, i32x16, mask32x4, mask32x8, mask32x16,
+};
 
 use crate::real::forward_operators;
 use crate::{Nearest, Packet, Real};
 
-/// Sixteen floats; marks step to the neighbouring float, as those of `f32` do.
-#[derive(Clone, Copy)]
-pub struct Lanes<S: Simd>(f32x16<S>);
+macro_rules! lanes {
+    ($(#[$doc:meta])* $name:ident: $count:literal of $float:ident, $int:ident, $mask:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy)]
+        pub struct $name<S: Simd>($float<S>);
 
-impl<S: Simd> Lanes<S> {
-    /// Zero in every lane.
-    #[inline(always)]
-    pub fn zero(token: S) -> Self {
-        Self(f32x16::splat(token, 0.0))
-    }
+        impl<S: Simd> $name<S> {
+            /// Zero in every lane.
+            #[inline(always)]
+            pub fn zero(token: S) -> Self {
+                Self($float::splat(token, 0.0))
+            }
+        }
+
+        impl<S: Simd> fmt::Debug for $name<S> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                <[f32; $count]>::from(self.0).fmt(f)
+            }
+        }
+
+        forward_operators!([S: Simd] $name<S>, |a, b| $name(a.0 + b.0), $name(a.0 - b.0),
+            $name(a.0 * b.0), $name(a.0 / b.0), |c| $name(-c.0));
+
+        impl<S: Simd> Real for $name<S> {
+            type Scalar = f32;
+            const OUTWARD: bool = true;
+
+            #[inline(always)]
+            fn splat(self, c: f32) -> Self {
+                Self($float::splat(self.0.simd, c))
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self(self.0.sqrt())
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Self(self.0.abs())
+            }
+            #[inline(always)]
+            fn floor(self) -> Self {
+                Self(self.0.floor())
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                Self(self.0.min(other.0))
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                Self(self.0.max(other.0))
+            }
+            #[inline(always)]
+            fn select_lt(self, other: Self, x: Self, y: Self) -> Self {
+                Self(self.0.simd_lt(other.0).select(x.0, y.0))
+            }
+            #[inline(always)]
+            fn down(self) -> Self {
+                -(-self).up()
+            }
+            /// The float above, in integer arithmetic: the bits of a positive float increase with it.
+            #[inline(always)]
+            fn up(self) -> Self {
+                let token = self.0.simd;
+                let zero = $float::splat(token, 0.0);
+                // Adding 0 turns -0 into +0.
+                let x = self.0 + zero;
+                let bits: $int<S> = x.bitcast();
+                let one = $int::splat(token, 1);
+                let step = x.simd_lt(zero).select($int::splat(token, -1), one);
+                let above: $float<S> = (bits + step).bitcast();
+                Self(x.simd_lt($float::splat(token, f32::INFINITY)).select(above, self.0))
+            }
+            #[inline(always)]
+            fn map<const N: usize, const M: usize>(
+                x: [Self; N],
+                f: impl Fn([f32; N]) -> [f32; M],
+            ) -> [Self; M] {
+                let token = x[0].0.simd;
+                let mut result = [[0.0; $count]; M];
+                map_arrays(x.map(|x| x.0.into()), &mut result, f);
+                result.map(|y| Self($float::simd_from(token, y)))
+            }
+        }
+
+        impl<S: Simd> Packet for $name<S> {
+            const LANES: usize = $count;
+
+            #[inline(always)]
+            fn from_fn(self, mut f: impl FnMut(usize) -> f32) -> Self {
+                // A loop: `array::from_fn` would call a function for each lane.
+                let mut lanes = [0.0; $count];
+                for (i, lane) in lanes.iter_mut().enumerate() {
+                    *lane = f(i);
+                }
+                Self($float::simd_from(self.0.simd, lanes))
+            }
+            #[inline(always)]
+            fn lane(self, i: usize) -> f32 {
+                self.0[i]
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> u64 {
+                self.0.simd_lt(other.0).to_bitmask()
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> u64 {
+                self.0.simd_le(other.0).to_bitmask()
+            }
+            #[inline(always)]
+            fn select(self, mask: u64, x: Self, y: Self) -> Self {
+                const ALL: u64 = (1 << $count) - 1;
+                Self($mask::from_bitmask(self.0.simd, mask & ALL).select(x.0, y.0))
+            }
+        }
+    };
 }
 
-impl<S: Simd> fmt::Debug for Lanes<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        <[f32; 16]>::from(self.0).fmt(f)
-    }
-}
-
-forward_operators!([S: Simd] Lanes<S>, |a, b| Lanes(a.0 + b.0), Lanes(a.0 - b.0), Lanes(a.0 * b.0),
-    Lanes(a.0 / b.0), |c| Lanes(-c.0));
-
-impl<S: Simd> Real for Lanes<S> {
-    type Scalar = f32;
-    const OUTWARD: bool = true;
-
-    #[inline(always)]
-    fn splat(self, c: f32) -> Self {
-        Self(f32x16::splat(self.0.simd, c))
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(self.0.abs())
-    }
-    #[inline(always)]
-    fn floor(self) -> Self {
-        Self(self.0.floor())
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self(self.0.min(other.0))
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self(self.0.max(other.0))
-    }
-    #[inline(always)]
-    fn select_lt(self, other: Self, x: Self, y: Self) -> Self {
-        Self(self.0.simd_lt(other.0).select(x.0, y.0))
-    }
-    #[inline(always)]
-    fn down(self) -> Self {
-        -(-self).up()
-    }
-    /// The float above, in integer arithmetic: the bits of a positive float increase with it.
-    #[inline(always)]
-    fn up(self) -> Self {
-        let token = self.0.simd;
-        let zero = f32x16::splat(token, 0.0);
-        // Adding 0 turns -0 into +0.
-        let x = self.0 + zero;
-        let bits: i32x16<S> = x.bitcast();
-        let one = i32x16::splat(token, 1);
-        let step = x.simd_lt(zero).select(i32x16::splat(token, -1), one);
-        let above: f32x16<S> = (bits + step).bitcast();
-        Self(x.simd_lt(f32x16::splat(token, f32::INFINITY)).select(above, self.0))
-    }
-    #[inline(always)]
-    fn map<const N: usize, const M: usize>(
-        x: [Self; N],
-        f: impl Fn([f32; N]) -> [f32; M],
-    ) -> [Self; M] {
-        let token = x[0].0.simd;
-        let mut result = [[0.0; 16]; M];
-        map_arrays(x.map(|x| x.0.into()), &mut result, f);
-        result.map(|y| Self(f32x16::simd_from(token, y)))
-    }
-}
+lanes!(
+    /// Sixteen floats; marks step to the neighbouring float, as those of `f32` do.
+    Lanes: 16 of f32x16, i32x16, mask32x16
+);
+lanes!(
+    /// Eight floats, otherwise as [`Lanes`].
+    Lanes8: 8 of f32x8, i32x8, mask32x8
+);
+lanes!(
+    /// Four floats, otherwise as [`Lanes`].
+    Lanes4: 4 of f32x4, i32x4, mask32x4
+);
 
 /// Out of line: a scalar function needs no wide instructions, and many copies of it cost build time.
 #[inline(never)]
-pub(crate) fn map_arrays<const N: usize, const M: usize>(
-    x: [[f32; 16]; N],
-    y: &mut [[f32; 16]; M],
+pub(crate) fn map_arrays<const N: usize, const M: usize, const LANES: usize>(
+    x: [[f32; LANES]; N],
+    y: &mut [[f32; LANES]; M],
     f: impl Fn([f32; N]) -> [f32; M],
 ) {
-    for lane in 0..16 {
+    for lane in 0..LANES {
         let values = f(x.map(|x| x[lane]));
         for (y, value) in y.iter_mut().zip(values) {
             y[lane] = value;
         }
-    }
-}
-
-impl<S: Simd> Packet for Lanes<S> {
-    const LANES: usize = 16;
-
-    #[inline(always)]
-    fn from_fn(self, mut f: impl FnMut(usize) -> f32) -> Self {
-        // A loop: `array::from_fn` would call a function for each lane.
-        let mut lanes = [0.0; 16];
-        for (i, lane) in lanes.iter_mut().enumerate() {
-            *lane = f(i);
-        }
-        Self(f32x16::simd_from(self.0.simd, lanes))
-    }
-    #[inline(always)]
-    fn lane(self, i: usize) -> f32 {
-        self.0[i]
-    }
-    #[inline(always)]
-    fn lt(self, other: Self) -> u64 {
-        self.0.simd_lt(other.0).to_bitmask()
-    }
-    #[inline(always)]
-    fn le(self, other: Self) -> u64 {
-        self.0.simd_le(other.0).to_bitmask()
-    }
-    #[inline(always)]
-    fn select(self, mask: u64, x: Self, y: Self) -> Self {
-        Self(mask32x16::from_bitmask(self.0.simd, mask & 0xffff).select(x.0, y.0))
     }
 }
 
@@ -318,55 +338,77 @@ pub fn widest<T>(work: impl FnOnce() -> T) -> T {
     })
 }
 
-/// Runs a kernel on lanes of an instruction set, which falls back to a narrower one if missing.
+/// Runs a kernel on sixteen lanes of an instruction set, which falls back to a narrower one if missing.
 pub fn dispatch<K: Kernel>(isa: Isa, rounding: Rounding, kernel: K) -> K::Output {
+    let level = Level::new();
     #[cfg(target_arch = "x86_64")]
     {
-        let level = Level::new();
         if let (Isa::Avx512, Some(token)) = (isa, level.as_avx512()) {
             return match rounding {
                 Rounding::Outward => token.vectorize(
                     #[inline(always)]
                     || kernel.run(embedded::EmbeddedLanes(Lanes::zero(token))),
                 ),
-                Rounding::Nudged => run_nudged(token, kernel),
-                Rounding::Nearest => run_nearest(token, kernel),
+                _ => run_on(token, Lanes::zero(token), rounding, kernel),
             };
         }
         if let (Isa::Avx512 | Isa::Avx2, Some(token)) = (isa, level.as_avx2()) {
-            return match rounding {
-                Rounding::Outward | Rounding::Nudged => run_nudged(token, kernel),
-                Rounding::Nearest => run_nearest(token, kernel),
-            };
+            return run_on(token, Lanes::zero(token), rounding, kernel);
         }
         let token = level.as_sse2().expect("every x86-64 has SSE2");
-        match rounding {
-            Rounding::Outward | Rounding::Nudged => run_nudged(token, kernel),
-            Rounding::Nearest => run_nearest(token, kernel),
-        }
+        run_on(token, Lanes::zero(token), rounding, kernel)
     }
     #[cfg(not(target_arch = "x86_64"))]
     {
         let _ = isa;
-        fearless_simd::dispatch!(Level::new(), token => match rounding {
-            Rounding::Outward | Rounding::Nudged => kernel.run(Lanes::zero(token)),
-            Rounding::Nearest => kernel.run(Nearest(Lanes::zero(token))),
-        })
+        fearless_simd::dispatch!(level, token => run_on(token, Lanes::zero(token), rounding, kernel))
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-fn run_nudged<S: Simd, K: Kernel>(token: S, kernel: K) -> K::Output {
-    token.vectorize(
-        #[inline(always)]
-        || kernel.run(Lanes::zero(token)),
-    )
+/// How many lanes a narrow vector has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Narrow {
+    /// One register of SSE2 or NEON.
+    Four,
+    /// One register of AVX2.
+    Eight,
 }
 
-#[cfg(target_arch = "x86_64")]
-fn run_nearest<S: Simd, K: Kernel>(token: S, kernel: K) -> K::Output {
-    token.vectorize(
-        #[inline(always)]
-        || kernel.run(Nearest(Lanes::zero(token))),
-    )
+/// Runs a kernel on narrow vectors of the least instruction set that has them in one register, if this
+/// machine has it; bounds step to the neighbouring float.
+pub fn dispatch_narrow<K: Kernel>(lanes: Narrow, rounding: Rounding, kernel: K) -> K::Output {
+    let level = Level::new();
+    #[cfg(target_arch = "x86_64")]
+    {
+        if let (Narrow::Eight, Some(token)) = (lanes, level.as_avx2()) {
+            return run_on(token, Lanes8::zero(token), rounding, kernel);
+        }
+        let token = level.as_sse2().expect("every x86-64 has SSE2");
+        run_on(token, Lanes4::zero(token), rounding, kernel)
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    fearless_simd::dispatch!(level, token => match lanes {
+        Narrow::Four => run_on(token, Lanes4::zero(token), rounding, kernel),
+        Narrow::Eight => run_on(token, Lanes8::zero(token), rounding, kernel),
+    })
+}
+
+/// Runs a kernel on lanes without embedded rounding, in code for the token's instruction set.
+#[inline(always)]
+fn run_on<S: Simd, R: Packet<Scalar = f32>, K: Kernel>(
+    token: S,
+    zero: R,
+    rounding: Rounding,
+    kernel: K,
+) -> K::Output {
+    match rounding {
+        Rounding::Outward | Rounding::Nudged => token.vectorize(
+            #[inline(always)]
+            || kernel.run(zero),
+        ),
+        Rounding::Nearest => token.vectorize(
+            #[inline(always)]
+            || kernel.run(Nearest(zero)),
+        ),
+    }
 }

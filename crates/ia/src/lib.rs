@@ -46,7 +46,9 @@ pub use decorated::{Decorated, Decoration};
 pub use dual::Dual;
 pub use interval::{Interval, Raw, Set};
 pub use jet::{Enclosure, Jet};
-pub use lanes::{Isa, Kernel, Lanes, Rounding, dispatch, widest};
+pub use lanes::{
+    Isa, Kernel, Lanes, Lanes4, Lanes8, Narrow, Rounding, dispatch, dispatch_narrow, widest,
+};
 pub use nearest::Nearest;
 pub use number::{Binary, Number, Unary};
 pub use plain::Plain;

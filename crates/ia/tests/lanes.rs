@@ -9,8 +9,8 @@ use numbers::{Operation, bounded, exactly, interval, operation};
 use proptest::prelude::*;
 use zeroset_ia::interval::Flavor;
 use zeroset_ia::{
-    Decorated, Decoration, Interval, Isa, Kernel, Nearest, Packet, Pair, Plain, Raw, Rounding,
-    Scalar, Set, dispatch,
+    Decorated, Decoration, Interval, Isa, Kernel, Narrow, Nearest, Packet, Pair, Plain, Raw,
+    Rounding, Scalar, Set, dispatch, dispatch_narrow,
 };
 
 type Ends = [f64; 2];
@@ -54,6 +54,21 @@ fn on_lanes<F: Flavor>(
     dispatch(isa, rounding, Evaluate::<F> { operation, x, y, flavor: PhantomData })
 }
 
+/// As many of the operands as narrow vectors hold.
+fn on_narrow<F: Flavor>(
+    rounding: Rounding,
+    operation: &Operation,
+    x: &[Interval<f32, Set>],
+    y: &[Interval<f32, Set>],
+) -> impl Iterator<Item = (usize, Ends)> {
+    let evaluate = |lanes| {
+        let work = Evaluate::<F> { operation, x, y, flavor: PhantomData };
+        let [alone, _] = dispatch_narrow(lanes, rounding, work);
+        alone.into_iter().enumerate()
+    };
+    evaluate(Narrow::Four).chain(evaluate(Narrow::Eight))
+}
+
 fn on_scalars<S: Scalar, F: Flavor>(
     operation: &Operation,
     x: &Interval<f32, Set>,
@@ -93,12 +108,21 @@ fn check_lanes<F: Flavor>(
     x: &[Interval<f32, Set>],
     y: &[Interval<f32, Set>],
 ) -> Result<(), TestCaseError> {
+    let meets = |i: usize| F::SET || meets_precondition(operation, x[i], y[i]);
+    for (i, ends) in on_narrow::<F>(Rounding::Nudged, operation, x, y) {
+        let expected = on_scalars::<f32, F>(operation, &x[i], &y[i]);
+        prop_assert!(!meets(i) || same_bits(ends, expected), "{operation:?} {ends:?} {expected:?}");
+    }
+    for (i, ends) in on_narrow::<F>(Rounding::Nearest, operation, x, y) {
+        let expected = on_scalars::<Nearest<f32>, F>(operation, &x[i], &y[i]);
+        prop_assert!(!meets(i) || same_bits(ends, expected), "{operation:?} {ends:?} {expected:?}");
+    }
     for isa in Isa::available() {
         let [nudged, nudged_pair] = on_lanes::<F>(isa, Rounding::Nudged, operation, x, y);
         let [nearest, nearest_pair] = on_lanes::<F>(isa, Rounding::Nearest, operation, x, y);
         let [outward, outward_pair] = on_lanes::<F>(isa, Rounding::Outward, operation, x, y);
         for i in 0..16 {
-            if !F::SET && !meets_precondition(operation, x[i], y[i]) {
+            if !meets(i) {
                 continue;
             }
             let place = format!("{operation:?} {:?} {:?} on {}", x[i], y[i], isa.name());
@@ -260,6 +284,16 @@ fn primitives_equal_those_of_scalars() {
         lanes.iter().map(Vec::len).eq(scalars.iter().map(Vec::len)) && { pairs }
             .all(|(a, b)| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan())
     };
+    for (narrow, lanes) in [(Narrow::Four, 4), (Narrow::Eight, 8)] {
+        let run = |rounding| dispatch_narrow(narrow, rounding, Primitives(&floats));
+        let eight = Isa::available().contains(&Isa::Avx2) || !cfg!(target_arch = "x86_64");
+        let lanes = if eight { lanes } else { 4 };
+        let expected = [lanes, 2 * lanes].map(|lanes| primitives_of::<f32>(&floats, lanes));
+        assert!(same(run(Rounding::Nudged), &expected), "{narrow:?}");
+        let expected =
+            [lanes, 2 * lanes].map(|lanes| primitives_of::<Nearest<f32>>(&floats, lanes));
+        assert!(same(run(Rounding::Nearest), &expected), "{narrow:?}");
+    }
     let nudged = [16, 32].map(|lanes| primitives_of::<f32>(&floats, lanes));
     let nearest = [16, 32].map(|lanes| primitives_of::<Nearest<f32>>(&floats, lanes));
     for isa in Isa::available() {
