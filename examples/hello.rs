@@ -1,7 +1,7 @@
 //! One surface, two rays: `cargo run --example hello`.
 
 use glam::{DVec3, Vec3};
-use zeroset::cpu::Kmarch;
+use zeroset::cpu::Bisection;
 use zeroset::expr::Function;
 use zeroset::raycast::{Domain, Hits, Method, Progress, Ray, RayBatch, Rays, Request, Scene};
 
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let batch = RayBatch::new(vec![Ray::new(from, Vec3::Z), Ray::new(from, Vec3::X)]);
 
     // A method with its knobs, prepared for the scene, answers.
-    let mut method = Kmarch::default();
+    let mut method = Bisection::kmarch();
     method.for_precision(1e-6, &scene);
     let mut hits = Hits::new(Request::FirstWithNormal, batch.rays.len());
     method.prepare(&scene)?.intersect(Rays::Batch(&batch), &mut hits, &Progress::new())?;

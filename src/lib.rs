@@ -63,7 +63,7 @@
 //!
 //! ```
 //! use glam::{DVec3, Vec3};
-//! use zeroset::cpu::Kmarch;
+//! use zeroset::cpu::Bisection;
 //! use zeroset::expr::Function;
 //! use zeroset::raycast::{Certificate, Domain, Hits, Method, Progress, Ray, RayBatch, Rays};
 //! use zeroset::raycast::{Request, Scene};
@@ -72,7 +72,7 @@
 //! let domain = Domain::new(DVec3::splat(-2.0), DVec3::splat(2.0))?;
 //! let scene = Scene::new("sphere", sphere, domain);
 //!
-//! let mut method = Kmarch::default();
+//! let mut method = Bisection::kmarch();
 //! method.for_precision(1e-6, &scene);
 //! let intersector = method.prepare(&scene)?;
 //!

@@ -6,7 +6,7 @@
 //! wider than asked, or than a few units in the last place of its point's coordinates.
 
 use zeroset_bench::{Class, Sample, Tolerance, Truths, judge, truth};
-use zeroset_cpu::Kmarch;
+use zeroset_cpu::Bisection;
 use zeroset_raycast::catalogue::Catalogue;
 use zeroset_raycast::{Camera, Certificate, Hits, Method, Progress, Rays, Request, Scene, View};
 
@@ -30,7 +30,7 @@ impl Proofs {
         let rays = Rays::View(&view);
         let progress = Progress::new();
         let width = 1e-4 * scene.domain.longest_side();
-        let mut method = Kmarch::default();
+        let mut method = Bisection::kmarch();
         method.for_precision(width, scene);
         let intersector = method.prepare(scene).expect("every surface is a function");
         let mut hits = Hits::new(Request::First, rays.len());

@@ -8,7 +8,9 @@ use zeroset_raycast::Method;
 pub fn methods() -> Vec<Box<dyn Method>> {
     vec![
         Box::new(zeroset_cpu::Amp::default()),
-        Box::new(zeroset_cpu::Kmarch::default()),
+        Box::new(zeroset_cpu::Bisection::kmarch()),
+        Box::new(zeroset_cpu::Bisection::tbisect()),
+        Box::new(zeroset_cpu::Bisection::mitchell()),
         Box::new(zeroset_cpu::Reference::default()),
     ]
 }

@@ -3,37 +3,106 @@
 use rayon::prelude::*;
 use zeroset_expr::Tape;
 use zeroset_ia::{Dual, plain::Plain};
-use zeroset_raycast::{Hits, Rays, Request, Work};
+use zeroset_raycast::{Hits, Knob, KnobError, Rays, Request, Work, knob};
 
 use glam::{DVec3, Vec3};
 
+/// How normals are computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Normals {
+    /// The gradient by forward-mode differentiation.
+    Gradient,
+    /// Central differences with a stencil of this width in space: \[knoll2007\] Section 5.7. The value is
+    /// taken half a width to each side.
+    Stencil(f64),
+}
+
+/// The knob `normals` with its value.
+pub(crate) fn knob(normals: Normals) -> Knob {
+    Knob {
+        name: "normals",
+        value: match normals {
+            Normals::Gradient => "gradient".into(),
+            Normals::Stencil(width) => knob::text(width),
+        },
+        doc: "gradient, or the width in space of a central differences stencil (default gradient)",
+    }
+}
+
+/// Reads the knob's value.
+pub(crate) fn read(value: &str) -> Result<Normals, KnobError> {
+    if value.trim() == "gradient" {
+        return Ok(Normals::Gradient);
+    }
+    let width = knob::number("normals", value, [f64::MIN_POSITIVE, f64::MAX]);
+    width.map(Normals::Stencil).map_err(|_| KnobError::Value {
+        knob: "normals".into(),
+        value: value.into(),
+        expected: "gradient, or a width above 0".into(),
+    })
+}
+
 /// Fills in the normals if they were asked for: the unit gradient at the middle of each bracket, in
 /// double precision; zero where it vanishes or is not finite. Gives what that cost.
-pub(crate) fn fill(tape: &Tape, rays: Rays<'_>, hits: &mut Hits) -> Work {
+pub(crate) fn fill(tape: &Tape, normals: Normals, rays: Rays<'_>, hits: &mut Hits) -> Work {
     if hits.request != Request::FirstWithNormal {
         return Work::default();
     }
+    let each = match normals {
+        Normals::Gradient => Work { gradients: 1, ..Work::default() },
+        Normals::Stencil(_) => Work { points: 6, ..Work::default() },
+    };
     let (bracket, certificate) = (&hits.bracket, &hits.certificate);
     hits.normal.par_chunks_mut(1024).zip(hits.work.par_chunks_mut(1024)).enumerate().for_each(
-        |(chunk, (normals, work))| {
-            let zero = Dual::<_, 3>::constant_value(Plain(0.0_f64));
-            let mut evaluator = tape.evaluator(&zero);
-            for (i, (normal, work)) in normals.iter_mut().zip(work).enumerate() {
+        |(chunk, (vectors, work))| {
+            let mut gradient = Gradient::new(tape, normals);
+            for (i, (vector, work)) in vectors.iter_mut().zip(work).enumerate() {
                 let index = 1024 * chunk + i;
                 if !certificate[index].is_hit() {
                     continue;
                 }
                 let [lo, hi] = bracket[index];
-                let p = rays.get(index).at(0.5 * (lo + hi));
-                let point = [0, 1, 2].map(|axis| Dual::variable(Plain(p[axis]), axis));
-                let [x, y, z] = evaluator.evaluate(point).tangent.map(|t| t.0);
-                *work += Work { gradients: 1, ..Work::default() };
-                *normal = unit(DVec3::new(x, y, z));
+                *vector = unit(gradient.at(rays.get(index).at(0.5 * (lo + hi))));
+                *work += each;
             }
         },
     );
-    let gradients = hits.certificate.iter().filter(|c| c.is_hit()).count() as u64;
-    Work { gradients, ..Work::default() }
+    let mut total = Work::default();
+    hits.certificate.iter().filter(|c| c.is_hit()).for_each(|_| total += each);
+    total
+}
+
+/// The gradient, or what stands in for it.
+enum Gradient<'a> {
+    Dual(zeroset_expr::Evaluator<'a, Dual<Plain<f64>, 3>>),
+    Stencil(zeroset_expr::Evaluator<'a, Plain<f64>>, f64),
+}
+
+impl<'a> Gradient<'a> {
+    fn new(tape: &'a Tape, normals: Normals) -> Self {
+        let zero = Plain(0.0_f64);
+        match normals {
+            Normals::Gradient => Self::Dual(tape.evaluator(&Dual::constant_value(zero))),
+            Normals::Stencil(width) => Self::Stencil(tape.evaluator(&zero), width),
+        }
+    }
+
+    /// Its direction, of any length.
+    fn at(&mut self, p: DVec3) -> DVec3 {
+        match self {
+            Self::Dual(evaluator) => {
+                let point = [0, 1, 2].map(|axis| Dual::variable(Plain(p[axis]), axis));
+                DVec3::from(evaluator.evaluate(point).tangent.map(|t| t.0))
+            }
+            Self::Stencil(evaluator, width) => {
+                let mut value = |p: DVec3| evaluator.evaluate(p.to_array().map(Plain)).0;
+                DVec3::from(DVec3::AXES.map(|axis| {
+                    let half = 0.5 * *width * axis;
+                    value(p + half) - value(p - half)
+                }))
+            }
+        }
+    }
 }
 
 /// The unit vector along `v`, scaled first so that its square neither overflows nor vanishes.

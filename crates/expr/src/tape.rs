@@ -112,6 +112,7 @@ pub struct Instruction {
 /// A function with values for its parameters, ready for evaluation over any number.
 #[derive(Clone, Debug)]
 pub struct Tape {
+    inputs: usize,
     instructions: Vec<Instruction>,
     constants: Vec<Constant>,
     registers: usize,
@@ -153,7 +154,8 @@ impl Tape {
         }
         read(&written, output);
         let plan = Plan::new(&instructions, output);
-        Self { instructions, constants, registers: written.len(), output, plan }
+        let (inputs, registers) = (inputs as usize, written.len());
+        Self { inputs, instructions, constants, registers, output, plan }
     }
 
     /// The derivative along a direction, as a tape over (x, y, z, dx, dy, dz): an evaluator's
@@ -162,6 +164,11 @@ impl Tape {
     /// The rules, and what an interval's slope encloses, are those of [`Dual`](zeroset_ia::Dual).
     pub fn slope(&self) -> Self {
         slope::slope(self)
+    }
+
+    /// How many registers hold inputs: x, y and z, and for a slope the direction.
+    pub fn inputs(&self) -> usize {
+        self.inputs
     }
 
     /// The operations in order.

@@ -127,6 +127,10 @@ macro_rules! lanes {
                 const ALL: u64 = (1 << $count) - 1;
                 Self($mask::from_bitmask(self.0.simd, mask & ALL).select(x.0, y.0))
             }
+            #[inline(always)]
+            fn region<T>(self, work: impl FnOnce() -> T) -> T {
+                self.0.simd.vectorize(work)
+            }
         }
     };
 }
@@ -268,6 +272,10 @@ pub mod embedded {
         fn select(self, mask: u64, x: Self, y: Self) -> Self {
             Self(self.0.select(mask, x.0, y.0))
         }
+        #[inline(always)]
+        fn region<T>(self, work: impl FnOnce() -> T) -> T {
+            self.0.region(work)
+        }
     }
 }
 
@@ -365,32 +373,52 @@ pub fn dispatch<K: Kernel>(isa: Isa, rounding: Rounding, kernel: K) -> K::Output
     }
 }
 
-/// How many lanes a narrow vector has.
+/// One register of the instruction set that has registers of that size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Narrow {
-    /// One register of SSE2 or NEON.
+pub enum Register {
+    /// Four floats: SSE2, or what every machine of the architecture has.
     Four,
-    /// One register of AVX2.
+    /// Eight floats: AVX2.
     Eight,
+    /// Sixteen floats: AVX-512.
+    Sixteen,
 }
 
-/// Runs a kernel on narrow vectors of the least instruction set that has them in one register, if this
-/// machine has it; bounds step to the neighbouring float.
-pub fn dispatch_narrow<K: Kernel>(lanes: Narrow, rounding: Rounding, kernel: K) -> K::Output {
+impl Register {
+    /// Those that this machine has, the widest last.
+    pub fn available() -> Vec<Self> {
+        let of = |isa| match isa {
+            Isa::Portable => Self::Four,
+            Isa::Avx2 => Self::Eight,
+            Isa::Avx512 => Self::Sixteen,
+        };
+        Isa::available().into_iter().map(of).collect()
+    }
+}
+
+/// Runs a kernel on packets of one register, or on a smaller one if this machine lacks it.
+pub fn dispatch_register<K: Kernel>(
+    register: Register,
+    rounding: Rounding,
+    kernel: K,
+) -> K::Output {
     let level = Level::new();
     #[cfg(target_arch = "x86_64")]
     {
-        if let (Narrow::Eight, Some(token)) = (lanes, level.as_avx2()) {
+        if register == Register::Sixteen && level.as_avx512().is_some() {
+            return dispatch(Isa::Avx512, rounding, kernel);
+        }
+        if let (Register::Eight | Register::Sixteen, Some(token)) = (register, level.as_avx2()) {
             return run_on(token, Lanes8::zero(token), rounding, kernel);
         }
         let token = level.as_sse2().expect("every x86-64 has SSE2");
         run_on(token, Lanes4::zero(token), rounding, kernel)
     }
     #[cfg(not(target_arch = "x86_64"))]
-    fearless_simd::dispatch!(level, token => match lanes {
-        Narrow::Four => run_on(token, Lanes4::zero(token), rounding, kernel),
-        Narrow::Eight => run_on(token, Lanes8::zero(token), rounding, kernel),
-    })
+    {
+        let _ = register;
+        fearless_simd::dispatch!(level, token => run_on(token, Lanes4::zero(token), rounding, kernel))
+    }
 }
 
 /// Runs a kernel on lanes without embedded rounding, in code for the token's instruction set.

@@ -47,7 +47,7 @@ pub use dual::Dual;
 pub use interval::{Interval, Raw, Set};
 pub use jet::{Enclosure, Jet};
 pub use lanes::{
-    Isa, Kernel, Lanes, Lanes4, Lanes8, Narrow, Rounding, dispatch, dispatch_narrow, widest,
+    Isa, Kernel, Lanes, Lanes4, Lanes8, Register, Rounding, dispatch, dispatch_register, widest,
 };
 pub use nearest::Nearest;
 pub use number::{Binary, Number, Unary};

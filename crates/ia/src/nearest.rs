@@ -100,6 +100,10 @@ where
     fn select(self, mask: u64, x: Self, y: Self) -> Self {
         Nearest(self.0.select(mask, x.0, y.0))
     }
+    #[inline(always)]
+    fn region<T>(self, work: impl FnOnce() -> T) -> T {
+        self.0.region(work)
+    }
 }
 
 macro_rules! nearest_scalar {

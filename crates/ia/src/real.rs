@@ -166,6 +166,9 @@ pub trait Packet: Real {
     fn le(self, other: Self) -> u64;
     /// `x` where the mask's bit is set, else `y`.
     fn select(self, mask: u64, x: Self, y: Self) -> Self;
+    /// Does work in code for the packet's instruction set, which a function that is not inlined has
+    /// left. The closure, and what it calls, must be `#[inline(always)]`.
+    fn region<T>(self, work: impl FnOnce() -> T) -> T;
 }
 
 macro_rules! scalar {
@@ -241,6 +244,10 @@ macro_rules! scalar {
             #[inline(always)]
             fn select(self, mask: u64, x: Self, y: Self) -> Self {
                 if mask & 1 == 1 { x } else { y }
+            }
+            #[inline(always)]
+            fn region<T>(self, work: impl FnOnce() -> T) -> T {
+                work()
             }
         }
     };
@@ -380,6 +387,10 @@ impl<R: Packet> Packet for Pair<R> {
     #[inline(always)]
     fn select(self, mask: u64, x: Self, y: Self) -> Self {
         Pair(self.0.select(mask, x.0, y.0), self.1.select(mask >> R::LANES, x.1, y.1))
+    }
+    #[inline(always)]
+    fn region<T>(self, work: impl FnOnce() -> T) -> T {
+        self.0.region(work)
     }
 }
 

@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use zeroset_ia::interval::Flavor;
 use zeroset_ia::{
     Decorated, Decoration, Interval, Isa, Kernel, Narrow, Nearest, Packet, Pair, Plain, Raw,
-    Rounding, Scalar, Set, dispatch, dispatch_narrow,
+    Rounding, Scalar, Set, dispatch, dispatch_register,
 };
 
 type Ends = [f64; 2];
@@ -54,19 +54,19 @@ fn on_lanes<F: Flavor>(
     dispatch(isa, rounding, Evaluate::<F> { operation, x, y, flavor: PhantomData })
 }
 
-/// As many of the operands as narrow vectors hold.
-fn on_narrow<F: Flavor>(
+/// As many of the operands as narrow registers hold.
+fn on_registers<F: Flavor>(
     rounding: Rounding,
     operation: &Operation,
     x: &[Interval<f32, Set>],
     y: &[Interval<f32, Set>],
 ) -> impl Iterator<Item = (usize, Ends)> {
-    let evaluate = |lanes| {
+    let evaluate = move |register| {
         let work = Evaluate::<F> { operation, x, y, flavor: PhantomData };
-        let [alone, _] = dispatch_narrow(lanes, rounding, work);
+        let [alone, _] = dispatch_register(register, rounding, work);
         alone.into_iter().enumerate()
     };
-    evaluate(Narrow::Four).chain(evaluate(Narrow::Eight))
+    Register::available().into_iter().flat_map(evaluate)
 }
 
 fn on_scalars<S: Scalar, F: Flavor>(
@@ -109,11 +109,11 @@ fn check_lanes<F: Flavor>(
     y: &[Interval<f32, Set>],
 ) -> Result<(), TestCaseError> {
     let meets = |i: usize| F::SET || meets_precondition(operation, x[i], y[i]);
-    for (i, ends) in on_narrow::<F>(Rounding::Nudged, operation, x, y) {
+    for (i, ends) in on_registers::<F>(Rounding::Nudged, operation, x, y) {
         let expected = on_scalars::<f32, F>(operation, &x[i], &y[i]);
         prop_assert!(!meets(i) || same_bits(ends, expected), "{operation:?} {ends:?} {expected:?}");
     }
-    for (i, ends) in on_narrow::<F>(Rounding::Nearest, operation, x, y) {
+    for (i, ends) in on_registers::<F>(Rounding::Nearest, operation, x, y) {
         let expected = on_scalars::<Nearest<f32>, F>(operation, &x[i], &y[i]);
         prop_assert!(!meets(i) || same_bits(ends, expected), "{operation:?} {ends:?} {expected:?}");
     }
@@ -284,15 +284,18 @@ fn primitives_equal_those_of_scalars() {
         lanes.iter().map(Vec::len).eq(scalars.iter().map(Vec::len)) && { pairs }
             .all(|(a, b)| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan())
     };
-    for (narrow, lanes) in [(Narrow::Four, 4), (Narrow::Eight, 8)] {
-        let run = |rounding| dispatch_narrow(narrow, rounding, Primitives(&floats));
-        let eight = Isa::available().contains(&Isa::Avx2) || !cfg!(target_arch = "x86_64");
-        let lanes = if eight { lanes } else { 4 };
+    for register in Register::available() {
+        let lanes = match register {
+            Register::Four => 4,
+            Register::Eight => 8,
+            Register::Sixteen => 16,
+        };
+        let run = |rounding| dispatch_register(register, rounding, Primitives(&floats));
         let expected = [lanes, 2 * lanes].map(|lanes| primitives_of::<f32>(&floats, lanes));
-        assert!(same(run(Rounding::Nudged), &expected), "{narrow:?}");
+        assert!(same(run(Rounding::Nudged), &expected), "{register:?}");
         let expected =
             [lanes, 2 * lanes].map(|lanes| primitives_of::<Nearest<f32>>(&floats, lanes));
-        assert!(same(run(Rounding::Nearest), &expected), "{narrow:?}");
+        assert!(same(run(Rounding::Nearest), &expected), "{register:?}");
     }
     let nudged = [16, 32].map(|lanes| primitives_of::<f32>(&floats, lanes));
     let nearest = [16, 32].map(|lanes| primitives_of::<Nearest<f32>>(&floats, lanes));

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group};
 use glam::DVec3;
-use zeroset_cpu::{Amp, Finishing, Kmarch, Stop};
+use zeroset_cpu::{Amp, Bisection, Finishing, Stop};
 use zeroset_expr::Function;
 use zeroset_ia::{Isa, Rounding};
 use zeroset_raycast::{
@@ -24,9 +24,9 @@ const SIZE: usize = 512;
 fn contenders(scene: &Scene) -> Vec<(String, Box<dyn Method>)> {
     let accept = |rounding, isa| -> Box<dyn Method> {
         let finish = Finishing::Accept;
-        Box::new(Kmarch { stop: Stop::Depth(10), rounding, finish, isa, ..Kmarch::default() })
+        Box::new(Bisection { stop: Stop::Depth(10), rounding, finish, isa, ..Bisection::kmarch() })
     };
-    let mut certified = Kmarch::default();
+    let mut certified = Bisection::kmarch();
     certified.for_precision(1e-4 * scene.domain.longest_side(), scene);
     let mut list: Vec<(String, Box<dyn Method>)> = vec![
         ("kmarch-nearest".into(), accept(Rounding::Nearest, None)),

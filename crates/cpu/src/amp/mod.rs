@@ -17,7 +17,8 @@ use zeroset_raycast::{
 };
 
 use crate::implicit::Implicit;
-use crate::{isa, normals, tiles};
+use crate::normals::{self, Normals};
+use crate::{isa, tiles};
 use march::{March, Segment};
 use rule::Settings;
 
@@ -240,7 +241,7 @@ impl Intersector for Prepared {
             settings.bisections = 0;
         }
         tiles::cast(rays, hits, progress, |tile| self.cast(tile, rays.range(), &settings))?;
-        normals::fill(&self.implicit.tape, rays, hits);
+        normals::fill(&self.implicit.tape, Normals::Gradient, rays, hits);
         Ok(Report { work: hits.total_work(), device_time: None })
     }
 }

@@ -16,7 +16,8 @@ use super::ladder::{Found, Goal, Ladder, Rung, climb};
 use super::outward::Double;
 use super::{Class, Reference, Truth};
 use crate::implicit::Implicit;
-use crate::{normals, tiles};
+use crate::normals::{self, Normals};
+use crate::tiles;
 
 /// The precisions above double: 128 bits, doubled up to the most that is allowed.
 const FIRST_BITS: u32 = 128;
@@ -164,7 +165,7 @@ impl Intersector for PreparedReference {
                 })
                 .collect()
         })?;
-        normals::fill(&self.tapes.double, rays, hits);
+        normals::fill(&self.tapes.double, Normals::Gradient, rays, hits);
         Ok(Report { work: hits.total_work(), device_time: None })
     }
 }

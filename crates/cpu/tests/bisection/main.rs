@@ -1,4 +1,5 @@
-//! `kmarch` is the same on every instruction set and in every grouping, and proves only what is so.
+//! `kmarch`, `tbisect` and `mitchell` are the same on every instruction set and in every grouping, and
+//! prove only what is so.
 
 mod certificates;
 mod exact;
@@ -6,9 +7,10 @@ mod knobs;
 #[path = "../reference/rational.rs"]
 mod rational;
 mod same;
+mod settings;
 
 use glam::{DVec3, Vec3};
-use zeroset_cpu::Kmarch;
+use zeroset_cpu::{Algorithm, Bisection};
 use zeroset_expr::Function;
 use zeroset_raycast::{
     Camera, Domain, Hit, Hits, Method, Progress, Ray, RayBatch, Rays, Request, Scene, View,
@@ -22,14 +24,14 @@ fn scene(equation: &str, half: f64) -> Scene {
     Scene::new("test", Function::parse(equation).unwrap(), cube(half))
 }
 
-fn cast(method: &Kmarch, scene: &Scene, rays: Rays<'_>) -> Hits {
+fn cast(method: &Bisection, scene: &Scene, rays: Rays<'_>) -> Hits {
     let mut hits = Hits::new(Request::First, rays.len());
     let intersector = method.prepare(scene).unwrap();
     intersector.intersect(rays, &mut hits, &Progress::new()).unwrap();
     hits
 }
 
-fn answers(method: &Kmarch, scene: &Scene, rays: &[Ray]) -> Vec<Hit> {
+fn answers(method: &Bisection, scene: &Scene, rays: &[Ray]) -> Vec<Hit> {
     let hits = cast(method, scene, Rays::Batch(&RayBatch::new(rays.to_vec())));
     (0..rays.len()).map(|i| hits.get(i)).collect()
 }
@@ -70,6 +72,8 @@ fn assorted(scene: &Scene, side: usize) -> Vec<Ray> {
     }
     rays
 }
+
+const ALGORITHMS: [Algorithm; 3] = [Algorithm::Kmarch, Algorithm::Tbisect, Algorithm::Mitchell];
 
 /// Equations of every kind, with half the side of their domain.
 const EQUATIONS: [(&str, f64); 9] = [

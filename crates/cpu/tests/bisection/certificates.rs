@@ -1,21 +1,31 @@
 //! What may not be proved: poles, jumps, gaps, and anything rounded to nearest.
 
-use zeroset_cpu::{Finishing, Kmarch};
+use zeroset_cpu::{Algorithm, Bisection, Finishing};
 use zeroset_ia::Rounding;
 use zeroset_raycast::{Certificate, Hit, Ray};
 
-use crate::{EQUATIONS, answers, assorted, ray, scene};
+use crate::{ALGORITHMS, EQUATIONS, answers, assorted, ray, scene};
 
+/// What every algorithm says of a ray; the finish makes that the same certificate.
 fn one(equation: &str, ray: Ray) -> Hit {
-    answers(&Kmarch::default(), &scene(equation, 1.0), &[ray])[0]
+    let [hit, others @ ..] = ALGORITHMS
+        .map(|algorithm| answers(&Bisection::new(algorithm), &scene(equation, 1.0), &[ray])[0]);
+    for other in others {
+        assert_eq!(other.certificate, hit.certificate, "{equation}: {other:?} {hit:?}");
+    }
+    hit
 }
 
 #[test]
 fn rounding_to_nearest_proves_no_first_hit_and_no_miss() {
     for (equation, half) in EQUATIONS {
         let scene = scene(equation, half);
-        for finish in [Finishing::Accept, Finishing::Certify] {
-            let method = Kmarch { rounding: Rounding::Nearest, finish, ..Kmarch::default() };
+        for (algorithm, finish) in ALGORITHMS
+            .into_iter()
+            .flat_map(|a| [Finishing::Accept, Finishing::Certify].map(|finish| (a, finish)))
+        {
+            let rounding = Rounding::Nearest;
+            let method = Bisection { rounding, finish, ..Bisection::new(algorithm) };
             for hit in answers(&method, &scene, &assorted(&scene, 16)) {
                 assert!(!hit.certificate.contains(Certificate::FIRST), "{equation}: {hit:?}");
             }
@@ -27,9 +37,11 @@ fn rounding_to_nearest_proves_no_first_hit_and_no_miss() {
 fn accepted_slabs_are_no_roots() {
     for (equation, half) in EQUATIONS {
         let scene = scene(equation, half);
-        let method = Kmarch { finish: Finishing::Accept, ..Kmarch::default() };
-        for hit in answers(&method, &scene, &assorted(&scene, 16)) {
-            assert!(!hit.certificate.contains(Certificate::ROOT), "{equation}: {hit:?}");
+        for algorithm in [Algorithm::Kmarch, Algorithm::Tbisect] {
+            let method = Bisection { finish: Finishing::Accept, ..Bisection::new(algorithm) };
+            for hit in answers(&method, &scene, &assorted(&scene, 16)) {
+                assert!(!hit.certificate.contains(Certificate::ROOT), "{equation}: {hit:?}");
+            }
         }
     }
 }

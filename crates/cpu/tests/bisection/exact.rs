@@ -1,11 +1,11 @@
 //! Certificates against the exact roots of ray polynomials.
 
-use zeroset_cpu::{Finishing, Kmarch, Stop};
+use zeroset_cpu::{Algorithm, Arithmetic, Bisection, Finishing, Stop};
 use zeroset_ia::Rounding;
-use zeroset_raycast::{Certificate, Hit, Ray};
+use zeroset_raycast::{Certificate, Hit, Method, Ray};
 
 use crate::rational::{Poly, Q, Roots, clip, exact, fraction};
-use crate::{answers, assorted, scene};
+use crate::{ALGORITHMS, answers, assorted, scene};
 
 /// How many proven hits, proven misses, and roots in all.
 #[derive(Debug, Default)]
@@ -17,7 +17,7 @@ struct Tally {
 }
 
 /// Holds every bit of every certificate against the roots in the closed domain.
-fn check(equation: &str, half: f64, method: &Kmarch, f: impl Fn([Poly; 3]) -> Poly) -> Tally {
+fn check(equation: &str, half: f64, method: &Bisection, f: impl Fn([Poly; 3]) -> Poly) -> Tally {
     let scene = scene(equation, half);
     let rays = assorted(&scene, 16);
     let mut tally = Tally::default();
@@ -68,21 +68,28 @@ fn judge(
     tally.hits += usize::from(hit.certificate == Certificate::PROVEN_HIT);
 }
 
-fn methods() -> Vec<Kmarch> {
-    let fine = Kmarch { stop: Stop::Width(1e-5), ..Kmarch::default() };
-    vec![
-        Kmarch::default(),
-        fine,
-        Kmarch { rounding: Rounding::Nudged, stop: Stop::Depth(3), ..Kmarch::default() },
-        Kmarch { finish: Finishing::Accept, ..Kmarch::default() },
-        Kmarch { rounding: Rounding::Nearest, ..Kmarch::default() },
+/// Settings of an algorithm; with the first two, most is proved.
+fn settings(algorithm: Algorithm) -> [Bisection; 7] {
+    let default = Bisection::new(algorithm);
+    [
+        default.clone(),
+        Bisection { stop: Stop::Width(1e-5), ..default.clone() },
+        Bisection { rounding: Rounding::Nudged, stop: Stop::Depth(3), ..default.clone() },
+        Bisection { finish: Finishing::Accept, ..default.clone() },
+        Bisection { finish: Finishing::Accept, stop: Stop::Depth(18), ..default.clone() },
+        Bisection { rounding: Rounding::Nearest, ..default.clone() },
+        Bisection { arithmetic: Arithmetic::Double, finish: Finishing::Accept, ..default },
     ]
 }
 
+fn methods() -> Vec<(usize, Bisection)> {
+    ALGORITHMS.into_iter().flat_map(|a| settings(a).into_iter().enumerate()).collect()
+}
+
 fn check_all(equation: &str, half: f64, f: impl Fn([Poly; 3]) -> Poly) {
-    for (i, method) in methods().iter().enumerate() {
-        let tally = check(equation, half, method, &f);
-        println!("{equation} {i}: {tally:?}");
+    for (i, method) in methods() {
+        let tally = check(equation, half, &method, &f);
+        println!("{equation} {} {i}: {tally:?}", method.id());
         assert!(tally.crossed > 80 && tally.clear > 80, "{equation}: {tally:?}");
         if i < 2 {
             // Where the certifying finish has all it needs, most is proved.
@@ -121,7 +128,7 @@ fn cubic() {
 #[test]
 fn double_sheets_are_never_proven_wrongly() {
     // A double plane beside a simple one: roots without a change of sign.
-    for method in methods() {
+    for (_, method) in methods() {
         let tally = check("(x-0.25)^2*(y+0.5)", 1.0, &method, |[x, y, _]| {
             let square = (&x - &Poly::number(fraction(1, 4))).pow(2);
             &square * &(&y + &Poly::number(fraction(1, 2)))
@@ -134,7 +141,7 @@ fn double_sheets_are_never_proven_wrongly() {
 fn large_values_are_cast_in_double_precision() {
     // 1e60 is beyond single precision.
     let factor = Q::new(num_bigint::BigInt::from(10).pow(60), 1.into());
-    let method = Kmarch::default();
+    let method = Bisection::kmarch();
     let tally = check("1e60*(x^2+y^2+z^2-1)", 1.25, &method, |p| {
         let sphere = &sum(p.map(|v| v.pow(2))) - &Poly::integer(1);
         &sphere * &Poly::number(factor.clone())

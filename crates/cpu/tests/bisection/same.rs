@@ -1,14 +1,20 @@
 //! An answer depends on its ray and the knobs alone.
 
 use proptest::prelude::*;
-use zeroset_cpu::{Finishing, Kmarch, Stop};
-use zeroset_ia::{Isa, Rounding};
+use zeroset_cpu::{Algorithm, Bisection, Finishing, Packets, Stop};
+use zeroset_ia::{Isa, Register, Rounding};
 use zeroset_raycast::{Certificate, Hit, Ray, Rays};
 
-use crate::{EQUATIONS, answers, assorted, cast, scene, view};
+use crate::{ALGORITHMS, EQUATIONS, answers, assorted, cast, scene, view};
 
-fn method(rounding: Rounding, finish: Finishing) -> Kmarch {
-    Kmarch { rounding, finish, stop: Stop::Depth(8), ..Kmarch::default() }
+fn method(algorithm: Algorithm, rounding: Rounding, finish: Finishing) -> Bisection {
+    Bisection { rounding, finish, stop: Stop::Depth(8), ..Bisection::new(algorithm) }
+}
+
+/// Every algorithm with every finish.
+fn variants() -> impl Iterator<Item = (Algorithm, Finishing)> {
+    let finishes = [Finishing::Accept, Finishing::Certify];
+    ALGORITHMS.into_iter().flat_map(move |a| finishes.map(|finish| (a, finish)))
 }
 
 /// The bits of answers, so that zeros differ by sign and infinities compare.
@@ -17,21 +23,26 @@ fn bits(hits: &[Hit]) -> Vec<([u64; 2], Hit)> {
 }
 
 #[test]
-fn the_instruction_set_changes_nothing() {
+fn instruction_set_and_packets_change_nothing() {
     for (equation, half) in EQUATIONS {
         let scene = scene(equation, half);
         let rays = assorted(&scene, 21);
         for rounding in [Rounding::Nearest, Rounding::Nudged] {
-            for finish in [Finishing::Accept, Finishing::Certify] {
-                let cast_on = |isa| {
-                    let method = Kmarch { isa: Some(isa), ..method(rounding, finish) };
+            for (algorithm, finish) in variants() {
+                let method = method(algorithm, rounding, finish);
+                let cast_on = |isa, packets| {
+                    let method = Bisection { isa: Some(isa), packets, ..method.clone() };
                     answers(&method, &scene, &rays)
                 };
-                let expected = cast_on(Isa::Portable);
+                let expected = cast_on(Isa::Portable, Packets::Two);
                 assert!(expected.iter().any(|hit| hit.certificate.is_hit()), "{equation}");
-                for isa in Isa::available() {
-                    let hits = cast_on(isa);
-                    assert_eq!(bits(&hits), bits(&expected), "{equation} {rounding:?} {isa:?}");
+                let registers = Register::available().into_iter().map(Packets::One);
+                let ways = registers.map(|packets| (Isa::Portable, packets));
+                for (isa, packets) in
+                    Isa::available().into_iter().map(|isa| (isa, Packets::Two)).chain(ways)
+                {
+                    let place = format!("{equation} {method:?} {isa:?} {packets:?}");
+                    assert_eq!(bits(&cast_on(isa, packets)), bits(&expected), "{place}");
                 }
             }
         }
@@ -44,12 +55,12 @@ fn a_view_is_its_rays_one_by_one() {
         let scene = scene(equation, half);
         let view = view(&scene, 37, 35);
         for rounding in [Rounding::Outward, Rounding::Nearest] {
-            for finish in [Finishing::Accept, Finishing::Certify] {
-                let method = method(rounding, finish);
+            for (algorithm, finish) in variants() {
+                let method = method(algorithm, rounding, finish);
                 let hits = cast(&method, &scene, Rays::View(&view));
                 for i in (0..hits.len()).step_by(13) {
                     let alone = answers(&method, &scene, &[view.ray(i % 37, i / 37)])[0];
-                    assert_eq!(alone, hits.get(i), "{equation} {rounding:?} {finish:?} ray {i}");
+                    assert_eq!(alone, hits.get(i), "{equation} {method:?} ray {i}");
                 }
             }
         }
@@ -63,13 +74,14 @@ proptest! {
     fn order_changes_nothing(
         which in 0..EQUATIONS.len(),
         order in Just((0..500).collect::<Vec<usize>>()).prop_shuffle(),
+        algorithm in prop::sample::select(ALGORITHMS.to_vec()),
         accept in any::<bool>(),
     ) {
         let (equation, half) = EQUATIONS[which];
         let scene = scene(equation, half);
         let rays: Vec<Ray> = assorted(&scene, 17).into_iter().take(500).collect();
         let finish = if accept { Finishing::Accept } else { Finishing::Certify };
-        let method = method(Rounding::Outward, finish);
+        let method = method(algorithm, Rounding::Outward, finish);
         let hits = answers(&method, &scene, &rays);
         let shuffled: Vec<Ray> = order.iter().map(|&i| rays[i]).collect();
         let expected: Vec<Hit> = order.iter().map(|&i| hits[i]).collect();
@@ -79,12 +91,18 @@ proptest! {
 
 #[test]
 fn deeper_marches_hit_no_more_and_no_earlier() {
-    for (equation, half) in EQUATIONS {
+    for ((equation, half), algorithm) in
+        EQUATIONS.into_iter().flat_map(|e| ALGORITHMS.map(|algorithm| (e, algorithm)))
+    {
         let scene = scene(equation, half);
         let rays = assorted(&scene, 21);
         let at = |depth| {
             let stop = Stop::Depth(depth);
-            answers(&Kmarch { stop, ..method(Rounding::Outward, Finishing::Accept) }, &scene, &rays)
+            answers(
+                &Bisection { stop, ..method(algorithm, Rounding::Outward, Finishing::Accept) },
+                &scene,
+                &rays,
+            )
         };
         let mut before = at(0);
         for depth in [1, 2, 3, 5, 8, 12] {
@@ -97,8 +115,11 @@ fn deeper_marches_hit_no_more_and_no_earlier() {
                     !told || !deep.certificate.is_hit() || shallow.certificate.is_hit(),
                     "{equation} depth {depth} ray {i}: {shallow:?} {deep:?}"
                 );
+                // What is refined without intervals has its bracket elsewhere.
                 assert!(
-                    !told || shallow.bracket[0] <= deep.bracket[0],
+                    algorithm == Algorithm::Mitchell
+                        || !told
+                        || shallow.bracket[0] <= deep.bracket[0],
                     "{equation} depth {depth} ray {i}: {shallow:?} {deep:?}"
                 );
             }
@@ -112,7 +133,10 @@ fn outward_lanes_are_at_least_as_sharp_as_nudged_ones() {
     for (equation, half) in EQUATIONS {
         let scene = scene(equation, half);
         let rays = assorted(&scene, 21);
-        let hits = |rounding| answers(&method(rounding, Finishing::Accept), &scene, &rays);
+        let hits = |rounding| {
+            let method = method(Algorithm::Kmarch, rounding, Finishing::Accept);
+            answers(&method, &scene, &rays)
+        };
         for (sharp, nudged) in hits(Rounding::Outward).iter().zip(hits(Rounding::Nudged)) {
             assert!(nudged.certificate.is_hit() || !sharp.certificate.is_hit(), "{equation}");
         }

@@ -18,6 +18,8 @@ pub(super) enum Finding {
     Root([f64; 2]),
     /// There is no root before the range; it may hold one.
     Unknown([f64; 2]),
+    /// A root was found in the range; nothing is proved.
+    Unproven([f64; 2]),
 }
 
 /// Settles slabs of a function.

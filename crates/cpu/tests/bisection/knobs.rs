@@ -1,7 +1,7 @@
 //! Knobs read back, and extremes of them are answered.
 
-use zeroset_cpu::{Finishing, Kmarch, Stop};
-use zeroset_ia::{Isa, Rounding};
+use zeroset_cpu::{Arithmetic, Bisection, Finishing, Normals, Packets, Poles, Stop};
+use zeroset_ia::{Isa, Register, Rounding};
 use zeroset_raycast::{Certificate, KnobError, Method};
 
 use crate::{answers, assorted, ray, scene};
@@ -14,8 +14,21 @@ fn all_knobs_set_again_give_the_same_method() {
             // Sets that the machine lacks are refused.
             for isa in Isa::available().into_iter().map(Some).chain([None]) {
                 let finish = Finishing::Accept;
-                let method = Kmarch { stop, rounding, finish, levels: 7, isa };
-                let mut copy = Kmarch::default();
+                let method = Bisection {
+                    stop,
+                    delta: 0.125,
+                    rounding,
+                    finish,
+                    levels: 7,
+                    poles: Poles::Shown,
+                    shadow: 3,
+                    normals: Normals::Stencil(0.01),
+                    packets: Packets::One(Register::Four),
+                    arithmetic: Arithmetic::Double,
+                    isa,
+                    ..Bisection::kmarch()
+                };
+                let mut copy = Bisection::kmarch();
                 // The least normal number is the least width that can be set.
                 let result: Result<Vec<()>, _> =
                     method.knobs().iter().map(|knob| copy.set(knob.name, &knob.value)).collect();
@@ -32,7 +45,7 @@ fn all_knobs_set_again_give_the_same_method() {
 
 #[test]
 fn wrong_values_change_nothing() {
-    let mut method = Kmarch::default();
+    let mut method = Bisection::kmarch();
     for (knob, value) in [
         ("depth", "-1"),
         ("depth", "41"),
@@ -45,11 +58,19 @@ fn wrong_values_change_nothing() {
         ("rounding", "up"),
         ("finish", ""),
         ("levels", "-0.5"),
+        ("delta", "-1"),
+        ("delta", "inf"),
+        ("poles", "yes"),
+        ("shadow", "41"),
+        ("normals", "0"),
+        ("normals", "NaN"),
+        ("packet", "5"),
+        ("arithmetic", "single"),
         ("isa", "sse9"),
         ("speed", "1"),
     ] {
         assert!(method.set(knob, value).is_err(), "{knob}={value}");
-        assert_eq!(method, Kmarch::default());
+        assert_eq!(method, Bisection::kmarch());
     }
 }
 
@@ -61,7 +82,7 @@ fn coarse_and_fine_stops_are_answered() {
         [Stop::Depth(0), Stop::Depth(40), Stop::Width(1e300), Stop::Width(1.0), Stop::Width(1e-300)]
     {
         for levels in [0, 40] {
-            let method = Kmarch { stop, levels, ..Kmarch::default() };
+            let method = Bisection { stop, levels, ..Bisection::kmarch() };
             let hits = answers(&method, &scene, &rays);
             assert!(hits.iter().any(|hit| hit.certificate.is_hit()), "{stop:?} {levels}");
         }
@@ -70,7 +91,8 @@ fn coarse_and_fine_stops_are_answered() {
 
 #[test]
 fn depth_0_asks_once() {
-    let method = Kmarch { stop: Stop::Depth(0), finish: Finishing::Accept, ..Kmarch::default() };
+    let method =
+        Bisection { stop: Stop::Depth(0), finish: Finishing::Accept, ..Bisection::kmarch() };
     let scene = scene("x^2+y^2+z^2-1", 1.25);
     let hit = answers(&method, &scene, &[ray([-3.0, 1.2, 1.2], [1.0, 0.0, 0.0])])[0];
     // y^2 + z^2 = 2.88: one enclosure tells.
@@ -85,7 +107,7 @@ fn proven_brackets_are_as_narrow_as_asked() {
     let scene = scene("x^4+y^4+z^4-1", 1.25);
     let rays = assorted(&scene, 16);
     for width in [0.1, 1e-3, 1e-6, 1e-9] {
-        let mut method = Kmarch::default();
+        let mut method = Bisection::kmarch();
         method.for_precision(width, &scene);
         let hits = answers(&method, &scene, &rays);
         let proven: Vec<_> =
