@@ -41,7 +41,7 @@ pub(crate) struct Frame {
     pub(crate) cast: Cost,
     /// What the shadow rays cost, if there were any to be.
     pub(crate) shadows: Option<Cost>,
-    /// How many shadow rays were blocked.
+    /// How often a light does not reach what faces it.
     pub(crate) blocked: usize,
 }
 
@@ -122,13 +122,20 @@ impl Painter<'_> {
         intersector: &dyn Intersector,
         bar: &Bar,
     ) -> Result<Cost, Failure> {
+        let mut cost = Cost::default();
+        light.blocked = vec![false; hits.len()];
         let start = Instant::now();
-        let rays = ShadowRays::new(self.view, hits, &scene.domain, light).map_err(Failure::work)?;
-        let batch = Rays::Batch(&rays.batch);
-        let mut answers = Hits::new(Request::Any, batch.len());
-        let report = self.cast("shadows", batch, &mut answers, intersector, bar)?;
-        light.blocked = rays.blocked(&answers).map_err(Failure::work)?;
-        Ok(Cost { rays: batch.len(), time: start.elapsed(), work: report.work })
+        let mut rays =
+            ShadowRays::new(self.view, hits, &scene.domain, light).map_err(Failure::work)?;
+        while !rays.is_empty() {
+            let batch = Rays::Batch(&rays.batch);
+            let mut answers = Hits::new(Request::Any, batch.len());
+            let report = self.cast("shadows", batch, &mut answers, intersector, bar)?;
+            cost += Cost { rays: batch.len(), work: report.work, ..Cost::default() };
+            rays.mark(&answers, &mut light.blocked).map_err(Failure::work)?;
+            rays = rays.further(&answers).map_err(Failure::work)?;
+        }
+        Ok(Cost { time: start.elapsed(), ..cost })
     }
 
     /// How each answer agrees with the reference.
@@ -188,11 +195,11 @@ impl Frame {
         let cost = self.shadows?;
         let share = 100.0 * cost.time.as_secs_f64() / self.time().as_secs_f64();
         let rays = format!(
-            "{} shadow rays in {} ms, {} % of the frame; blocked: {}",
+            "{} shadow rays in {} ms, {} % of the frame; {} blocked",
             cost.rays,
             short(milliseconds(cost.time)),
             short(share),
-            percent(self.blocked, cost.rays)
+            self.blocked
         );
         Some([rays, cost.evaluations("shadow ray")])
     }

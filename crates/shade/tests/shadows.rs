@@ -45,6 +45,17 @@ fn hits(view: &View) -> Hits {
     hits
 }
 
+/// The pixels that a light does not reach.
+fn blocked(view: &View, hits: &Hits, light: &Light) -> Vec<bool> {
+    let rays = ShadowRays::new(view, hits, &domain(), light).unwrap();
+    let mut blocked = vec![false; hits.len()];
+    let answers = answers(&rays);
+    rays.mark(&answers, &mut blocked).unwrap();
+    // All hits are proven.
+    assert!(rays.further(&answers).unwrap().is_empty());
+    blocked
+}
+
 /// The answers to shadow rays: the ball, or the plane if a ray starts on its wrong side.
 fn answers(rays: &ShadowRays) -> Hits {
     let mut answers = Hits::new(Request::Any, rays.batch.rays.len());
@@ -66,8 +77,7 @@ fn the_shadow_of_a_ball_on_a_plane_is_an_ellipse() {
     for towards in [DVec3::new(1.0, 0.0, 1.0), DVec3::new(-0.5, 0.7, 2.0)] {
         // Of any length.
         let light = Light::new(7.0 * towards.as_vec3(), 1.0);
-        let rays = ShadowRays::new(&view, &hits, &domain(), &light).unwrap();
-        let blocked = rays.blocked(&answers(&rays)).unwrap();
+        let blocked = blocked(&view, &hits, &light);
         let l = towards.normalize();
         let mut count = [0; 2];
         for (i, blocked) in blocked.iter().enumerate() {
@@ -136,6 +146,47 @@ fn the_offset_grows_with_the_bracket_and_shrinks_with_the_pixel() {
     }
 }
 
+/// A method that finds the plane thicker than it is, and can prove nothing there.
+fn thick(rays: &ShadowRays, thickness: f64) -> Hits {
+    let mut answers = answers(rays);
+    for (i, ray) in rays.batch.rays.iter().enumerate() {
+        if f64::from(ray.origin.z) < thickness {
+            let bracket = [0.0, 0.01];
+            let certificate = Certificate::POSSIBLE_HIT;
+            answers.set(i, Hit { bracket, certificate, work: Work::default() });
+        }
+    }
+    answers
+}
+
+#[test]
+fn a_surface_that_seems_thick_does_not_shade_itself() {
+    let view = view();
+    let hits = hits(&view);
+    let light = Light::new(Vec3::new(1.0, 0.0, 1.0), 1.0);
+    let true_shadow = blocked(&view, &hits, &light);
+    let offset = 8.0 / 256.0;
+    // 1 + 15/sqrt(2) offsets are as far above the plane as rays start.
+    for (thickness, is_lit) in [(0.5 * offset, true), (10.0 * offset, true), (13.0 * offset, false)]
+    {
+        let mut rays = ShadowRays::new(&view, &hits, &domain(), &light).unwrap();
+        let mut blocked = vec![false; hits.len()];
+        let mut times = 0;
+        while !rays.is_empty() {
+            let answers = thick(&rays, thickness);
+            rays.mark(&answers, &mut blocked).unwrap();
+            rays = rays.further(&answers).unwrap();
+            times += 1;
+        }
+        assert!(times <= 5, "{times}");
+        if is_lit {
+            assert!(blocked == true_shadow, "{thickness}");
+        } else {
+            assert!(blocked.iter().filter(|b| **b).count() > hits.len() / 2, "{thickness}");
+        }
+    }
+}
+
 #[test]
 fn a_blocked_light_leaves_the_others_and_what_is_everywhere() {
     let view = view();
@@ -143,8 +194,7 @@ fn a_blocked_light_leaves_the_others_and_what_is_everywhere() {
     let all = [[1.0, 0.0, 1.0], [0.8, 0.3, 1.0], [0.0, 1.0, 1.0]].map(Vec3::from);
     let with_shadow = |direction| {
         let light = Light::new(direction, 1.0 / 3.0);
-        let rays = ShadowRays::new(&view, &hits, &domain(), &light).unwrap();
-        Light { blocked: rays.blocked(&answers(&rays)).unwrap(), ..light }
+        Light { blocked: blocked(&view, &hits, &light), ..light }
     };
     let shadowed = all.map(with_shadow);
     let painted = shaded::picture(&view, &hits, &shadowed).unwrap();
@@ -168,8 +218,10 @@ fn what_does_not_fit_is_an_error_and_what_is_no_number_casts_no_ray() {
     let mut hits = hits(&view);
     let light = Light::new(Vec3::Z, 1.0);
     let rays = ShadowRays::new(&view, &hits, &domain(), &light).unwrap();
-    let error = rays.blocked(&Hits::new(Request::Any, 3)).unwrap_err();
-    assert!(matches!(error, ShadeError::Answers { got: 3, .. }), "{error}");
+    let few = Hits::new(Request::Any, 3);
+    for error in [rays.mark(&few, &mut []).unwrap_err(), rays.further(&few).unwrap_err()] {
+        assert!(matches!(error, ShadeError::Answers { got: 3, .. }), "{error}");
+    }
     let none = Hits::new(Request::First, hits.len());
     let error = ShadowRays::new(&view, &none, &domain(), &light).unwrap_err();
     assert!(matches!(error, ShadeError::NoNormals(_)), "{error}");
