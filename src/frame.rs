@@ -91,11 +91,9 @@ impl Painter<'_> {
             }
             _ => shade::picture(self.kind, self.view, &hits, None),
         };
-        let picture = match self.legend {
-            true => picture.and_then(|picture| picture.with_legend()),
-            false => picture,
-        }
-        .map_err(Failure::work)?;
+        let picture =
+            if self.legend { picture.and_then(|picture| picture.with_legend()) } else { picture };
+        let picture = picture.map_err(Failure::work)?;
         Ok(Frame { hits, picture, cast, shadows, blocked })
     }
 
