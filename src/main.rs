@@ -3,10 +3,15 @@
 //! Results go to standard output, progress and warnings to standard error. The exit status is 0 for
 //! done, 1 for a failure, 2 for wrong usage, 130 for an interruption.
 
+mod animate;
 mod camera;
 mod compare;
+mod destination;
 mod failure;
+mod frame;
+mod lighting;
 mod list;
+mod motion;
 mod numbers;
 mod options;
 mod output;
@@ -17,6 +22,7 @@ mod show;
 mod surface;
 mod table;
 mod trace;
+mod track;
 mod watch;
 
 use std::process::ExitCode;

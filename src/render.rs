@@ -1,18 +1,21 @@
-//! `zeroset render`: one picture by one method.
+//! `zeroset render`: one picture by one method, or one for each frame of an animation.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 use clap::Args;
-use zeroset::bench::{self, Sample, Tolerance, Truths, judge, truth};
-use zeroset::raycast::{Certificate, Hits, Intersector, Method, Progress, Rays, Request, Scene};
-use zeroset::raycast::{Report, View};
-use zeroset::shade::{self, Agreement, ViewKind};
+use zeroset::bench;
+use zeroset::raycast::{Method, Progress, Scene, View};
+use zeroset::shade::ViewKind;
 
+use crate::animate::Animator;
+use crate::destination::{self, Destination, FrameFiles, is_exr};
 use crate::failure::Failure;
-use crate::numbers::{percent, short};
+use crate::frame::{Painter, milliseconds};
+use crate::lighting::LightOptions;
+use crate::motion::MotionOptions;
+use crate::numbers::short;
 use crate::options::{self, CameraOptions, MethodOptions, SceneOptions, Size};
-use crate::pictures::agreement;
 use crate::watch::{self, Bar};
 use crate::{output, surface};
 
@@ -21,7 +24,12 @@ Examples:
   zeroset render barth-sextic
   zeroset render klein --view certificate --legend --size 1024x1024
   zeroset render '-x^2-y^2-z^2+1' --camera eye=0,-4,0,fov=30 --out sphere.png
-  zeroset render torus --method amp-sign --view error --legend --out error.png";
+  zeroset render torus --method amp-sign --view error --legend --out error.png
+  zeroset render klein --light 1,-1,2 --shadows on
+  zeroset render morph-hyperboloid-torus --animate w=0:1:60 --out frames/ --apng morph.png
+
+Frames are numbered from 0: frame i of N has FROM + (TO - FROM)*i/(N - 1), exactly. Frames that are
+there are overwritten, unless --resume keeps them. Ctrl-C keeps what is finished.";
 
 /// Draws a surface by one method.
 #[derive(Args, Clone, Debug)]
@@ -46,58 +54,58 @@ pub(crate) struct Render {
     #[arg(long)]
     legend: bool,
     #[command(flatten)]
+    light: LightOptions,
+    #[command(flatten)]
     methods: MethodOptions,
-    /// The picture, or with .exr the hits as numbers too [default:
-    /// out/SURFACE-METHOD-VIEW.png]
-    #[arg(long, value_name = "FILE.png|FILE.exr", value_parser = image_file)]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    motion: MotionOptions,
+    /// The picture, or with .exr the hits as numbers too; for an animation a folder, or the file
+    /// whose name gets the numbers of frames [default: out/SURFACE-METHOD-VIEW.png]
+    #[arg(long, value_name = "FILE.png|FILE.exr|FOLDER", value_parser = destination::destination)]
+    out: Option<Destination>,
+}
+
+/// What is needed to cast rays.
+struct Setup {
+    scene: Scene,
+    view: View,
+    method: Box<dyn Method>,
 }
 
 impl Render {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let (_, scene) = surface::scene(&self.scene)?;
-        let view = self.camera.view(&scene.domain, self.size)?;
-        let mut methods = [bench::method(&self.method).map_err(Failure::usage)?];
-        self.methods.set(&mut methods, &scene)?;
-        let [method] = methods;
-        method.supports(&scene).map_err(Failure::work)?;
-        let file = self.out.clone().unwrap_or_else(|| self.default_file(&scene));
-        if self.legend && is_exr(&file) {
-            return Err(Failure::usage("--legend is for .png files; an .exr file holds numbers"));
+        self.light.check(self.view)?;
+        match self.motion.frames()? {
+            Some(frames) => self.animate(frames),
+            None => self.draw(),
         }
+    }
+
+    /// Draws one picture.
+    fn draw(&self) -> Result<(), Failure> {
+        let Setup { scene, view, method } = self.setup(&self.scene)?;
+        let file = self.destination(&scene).file()?;
+        self.check_legend(&file)?;
         output::make_folder_of(&file)?;
 
         let progress = watch::interruptible()?;
-        let request =
-            if self.view.needs_normals() { Request::FirstWithNormal } else { Request::First };
-        let mut hits = Hits::new(request, view.width * view.height);
         let start = Instant::now();
         let intersector = method.prepare(&scene)?;
-        let prepare_ms = 1e3 * start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        let report = cast(&*intersector, method.as_ref(), &view, &mut hits, &progress)?;
-        let frame_ms = 1e3 * start.elapsed().as_secs_f64();
+        let prepare_ms = milliseconds(start.elapsed());
+        let painter = self.painter(&view, &progress);
+        let frame = painter.paint(method.id(), &scene, &*intersector, &Bar::new())?;
+        frame.save(&file, &view)?;
 
-        let agreement = match self.view {
-            ViewKind::Error => Some(against_reference(&scene, &view, &hits, &progress)?),
-            _ => None,
-        };
-        let picture =
-            shade::picture(self.view, &view, &hits, agreement.as_deref()).map_err(Failure::work)?;
-        if is_exr(&file) {
-            shade::exr::save(&file, &view, &hits, Some(&picture)).map_err(Failure::work)?;
-        } else {
-            let picture = if self.legend { picture.with_legend() } else { Ok(picture) };
-            picture.and_then(|picture| picture.save_png(&file)).map_err(Failure::work)?;
-        }
-        let facts = [
-            summary(&hits),
-            format!("prepared in {} ms, cast in {} ms", short(prepare_ms), short(frame_ms)),
-            work(&report, hits.len()),
-            file.display().to_string(),
+        let cast_ms = milliseconds(frame.cast.time);
+        let mut facts = vec![
+            frame.summary(),
+            format!("prepared in {} ms, cast in {} ms", short(prepare_ms), short(cast_ms)),
+            frame.cast.evaluations("ray"),
         ];
-        if !hits.certificate.iter().any(|c| c.is_hit()) {
+        facts.extend(frame.shadow_lines().into_iter().flatten());
+        facts.push(file.display().to_string());
+        if frame.is_empty() {
             eprintln!(
                 "zeroset: nothing was hit: is the surface in the domain, and the domain in view? \
                  See --domain and --camera"
@@ -106,83 +114,49 @@ impl Render {
         output::print(format!("{}\n", facts.join("\n")).as_bytes())
     }
 
-    fn default_file(&self, scene: &Scene) -> PathBuf {
-        let stem = output::file_stem(&scene.id);
-        Path::new("out").join(format!("{stem}-{}-{}.png", self.method, self.view))
+    /// Draws a picture for each frame.
+    fn animate(&self, frames: usize) -> Result<(), Failure> {
+        let Setup { scene, view, method } = self.setup(&self.motion.first_scene(&self.scene)?)?;
+        let files = FrameFiles::new(&self.destination(&scene), frames);
+        self.check_legend(&files.file(0))?;
+        self.motion.make_folders(&files, frames)?;
+
+        let progress = watch::interruptible()?;
+        let start = Instant::now();
+        let mut intersector = method.prepare(&scene)?;
+        let prepared = start.elapsed();
+        let painter = self.painter(&view, &progress);
+        let animator = Animator { motion: &self.motion, painter, files: &files, frames };
+        animator.run(scene, &mut *intersector, prepared)
     }
-}
 
-/// Casts the view's rays.
-fn cast(
-    intersector: &dyn Intersector,
-    method: &dyn Method,
-    view: &View,
-    hits: &mut Hits,
-    progress: &Progress,
-) -> Result<Report, Failure> {
-    let rays = hits.len();
-    let report = Bar::new().follow(method.id(), rays, progress, || {
-        intersector.intersect(Rays::View(view), hits, progress)
-    })?;
-    Ok(report)
-}
-
-/// How each answer agrees with the reference.
-fn against_reference(
-    scene: &Scene,
-    view: &View,
-    hits: &Hits,
-    progress: &Progress,
-) -> Result<Vec<Agreement>, Failure> {
-    let rays = Rays::View(view);
-    let oracle = truth::reference(scene)?;
-    let sample = Sample::every(1, rays);
-    let truths = Bar::new().follow("reference", rays.len(), progress, || {
-        oracle.classify(rays, &sample.indices, progress)
-    })?;
-    let truths = Truths { sample, truths };
-    Ok(agreement(&judge(rays, hits, &truths, Tolerance::Footprint)))
-}
-
-/// Hits, and the share of each certificate.
-fn summary(hits: &Hits) -> String {
-    let count = |c| hits.certificate.iter().filter(|given| **given == c).count();
-    let shares: Vec<_> = Certificate::ALL
-        .into_iter()
-        .filter(|c| count(*c) > 0)
-        .map(|c| format!("{c} {}", percent(count(c), hits.len())))
-        .collect();
-    let found = hits.certificate.iter().filter(|c| c.is_hit()).count();
-    format!("{found} hits of {} rays: {}", hits.len(), shares.join(", "))
-}
-
-/// Evaluations a ray.
-fn work(report: &Report, rays: usize) -> String {
-    let a_ray = |count: u64| short(count as f64 / rays as f64);
-    let work = report.work;
-    let mut text = format!(
-        "evaluations a ray: {} points, {} gradients, {} intervals",
-        a_ray(work.points),
-        a_ray(work.gradients),
-        a_ray(work.intervals)
-    );
-    if work.nonfinite > 0 {
-        text += &format!("; {} gave NaN or infinity", work.nonfinite);
+    fn painter<'a>(&'a self, view: &'a View, progress: &'a Progress) -> Painter<'a> {
+        Painter { view, kind: self.view, legend: self.legend, light: &self.light, progress }
     }
-    text
-}
 
-/// A file that pictures can be written to.
-fn image_file(text: &str) -> Result<PathBuf, String> {
-    let file = PathBuf::from(text);
-    let is_png = has_extension(&file, "png");
-    if is_png || is_exr(&file) { Ok(file) } else { Err("name a .png or .exr file".into()) }
-}
+    /// The scene, the camera and the method that are asked for.
+    fn setup(&self, options: &SceneOptions) -> Result<Setup, Failure> {
+        let (_, scene) = surface::scene(options)?;
+        let view = self.camera.view(&scene.domain, self.size)?;
+        let mut methods = [bench::method(&self.method).map_err(Failure::usage)?];
+        self.methods.set(&mut methods, &scene)?;
+        let [method] = methods;
+        method.supports(&scene).map_err(Failure::work)?;
+        Ok(Setup { scene, view, method })
+    }
 
-fn is_exr(file: &Path) -> bool {
-    has_extension(file, "exr")
-}
+    fn destination(&self, scene: &Scene) -> Destination {
+        self.out.clone().unwrap_or_else(|| {
+            let stem = output::file_stem(&scene.id);
+            let name = format!("{stem}-{}-{}.png", self.method, self.view);
+            Destination::File(Path::new("out").join(name))
+        })
+    }
 
-fn has_extension(file: &Path, extension: &str) -> bool {
-    file.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
+    fn check_legend(&self, file: &Path) -> Result<(), Failure> {
+        if self.legend && is_exr(file) {
+            return Err(Failure::usage("--legend is for .png files; an .exr file holds numbers"));
+        }
+        Ok(())
+    }
 }

@@ -1,8 +1,10 @@
 //! The command line does what it says, and refuses what it cannot do with a message and a status.
 
+mod animation;
 mod pictures;
 mod rays;
 mod refusals;
+mod shadows;
 mod surfaces;
 
 use std::fs;

@@ -10,6 +10,9 @@ fn bad_input_is_refused_with_place_and_remedy() {
     fn render<'a>(more: &[&'a str]) -> Vec<&'a str> {
         [&["render", SPHERE, "--size", "8x8"], more].concat()
     }
+    fn animate<'a>(more: &[&'a str]) -> Vec<&'a str> {
+        [&["render", "morph-hyperboloid-torus", "--size", "8x8"], more].concat()
+    }
     fn compare<'a>(more: &[&'a str]) -> Vec<&'a str> {
         [&["compare", SPHERE, "--size", "8x8"], more].concat()
     }
@@ -53,6 +56,35 @@ fn bad_input_is_refused_with_place_and_remedy() {
         (render(&["--set", "kmarch.depth=2.5"]), "whole number"),
         (render(&["--set", "kmarch.width=0"]), "e308"),
         (render(&["--seed", "1"]), "--seed"),
+        (render(&["--out", "folder"]), ".png or .exr"),
+        (render(&["--out", "folder/"]), ".png or .exr"),
+        (render(&["--light", "0,0,0"]), "no direction"),
+        (render(&["--light", "1,2"]), "three"),
+        (render(&["--light", "1,nan,2"]), "finite"),
+        (render(&["--shadows", "soft"]), "soft"),
+        (render(&["--shadows", "on", "--view", "depth"]), "--view shaded"),
+        (render(&["--light", "1,2,3", "--view", "normal"]), "--view shaded"),
+        (render(&["--resume"]), "--animate"),
+        (render(&["--apng", "a.png"]), "--animate"),
+        (animate(&["--animate", "w=0:1:0"]), "from 1 to"),
+        (animate(&["--animate", "w=0:1"]), "FROM:TO:FRAMES"),
+        (animate(&["--animate", "w=nan:1:3"]), "nan"),
+        (animate(&["--animate", "w=0:inf:3"]), "inf"),
+        (animate(&["--animate", "w=0:1/0:3"]), "1/0"),
+        (animate(&["--animate", "w=root:u^3-2:1:3"]), "FROM:TO:FRAMES"),
+        (animate(&["--animate", "v=0:1:3"]), "`v`"),
+        (animate(&["--animate", "azimuth=0:x:3"]), "\"x\""),
+        (animate(&["--animate", "w=0:1:3", "--animate", "r=0:1:4"]), "r=0:1:4 has 4"),
+        (animate(&["--animate", "w=0:1:3", "--animate", "r=0:1:4"]), "w=0:1:3 has 3"),
+        (animate(&["--animate", "w=0:1:3", "--animate", "w=1:0:3"]), "both move w"),
+        (animate(&["--animate", "w=0:1:3", "--param", "w=1"]), "both set w"),
+        (animate(&["--animate", "w=0:1:3", "--out", "f.gif"]), ".png"),
+        (animate(&["--animate", "w=0:1:3", "--apng", "a.gif"]), ".png"),
+        (animate(&["--animate", "w=0:1:3", "--fps", "9"]), "--apng"),
+        (animate(&["--animate", "w=0:1:3", "--apng", "a.png", "--fps", "0"]), "1..=1000"),
+        (animate(&["--animate", "w=0:1:3", "--apng", "a.png", "--out", "f.exr"]), "--apng"),
+        (animate(&["--animate", "w=0:1:3", "--out", "f.png", "--apng", "f-0001.png"]), "frame"),
+        (animate(&["--animate", "w=0:1:3", "--out", "f.exr", "--legend"]), "--legend"),
         (vec!["render", "/"], "folder"),
         (render(&["--threads", "0"]), "1 to 1024"),
         (render(&["--threads", "-2"]), "1 to 1024"),
@@ -135,6 +167,7 @@ fn folders_are_made_and_unwritable_ones_named() {
     for arguments in [
         ["render", SPHERE, "--size", "8x8", "--out", "file/picture.png"],
         ["compare", SPHERE, "--size", "8x8", "--out", "file/folder"],
+        ["render", SPHERE, "--out", "file/frames/", "--animate", "azimuth=0:9:2"],
     ] {
         let outcome = run(dir.path(), &arguments);
         assert_eq!(outcome.status, 1, "{arguments:?}: {}", outcome.stderr);

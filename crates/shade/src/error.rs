@@ -37,6 +37,14 @@ pub enum ShadeError {
         /// Rows.
         height: usize,
     },
+    /// Answers that do not belong to the shadow rays.
+    #[error("{got} answers for {rays} shadow rays; there must be one a ray")]
+    Answers {
+        /// How many there are.
+        got: usize,
+        /// How many there should be.
+        rays: usize,
+    },
     /// Hits without normals, where a picture needs them.
     #[error(
         "the picture {0:?} needs normals, and the hits have none; ask for first hits with normals"
@@ -73,6 +81,14 @@ pub enum ShadeError {
         path: PathBuf,
         /// What the system says.
         source: io::Error,
+    },
+    /// A picture that is no frame of an animation.
+    #[error("{path:?} cannot be animated: {reason}")]
+    Frame {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: &'static str,
     },
     /// A picture that the format cannot hold.
     #[error("cannot encode {path:?}: {reason}")]

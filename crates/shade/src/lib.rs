@@ -11,14 +11,17 @@
 //! | `certificate` | what was proved | [`certificate`] |
 //! | `error` | agreement with the reference | [`agreement`] |
 //!
+//! A shaded picture has shadows where [`ShadowRays`] were cast and found blocked.
+//!
 //! Several answers to one view are painted by [`pictures`], with the same scale for all. Pictures
-//! are saved as PNG ([`Picture::save_png`]) or joined to a contact [`sheet`](sheet::sheet); hits are
-//! kept as numbers in an EXR with named channels ([`exr::save`]). Files are whole or absent:
-//! everything goes through [`write_atomically`].
+//! are saved as PNG ([`Picture::save_png`]), joined to a contact [`sheet`](sheet::sheet), or shown
+//! one after the other by an [`Animation`]; hits are kept as numbers in an EXR with named channels
+//! ([`exr::save`]). Files are whole or absent: everything goes through [`write_atomically`].
 //!
 //! NaN and infinity have colours like any number, and never panic.
 
 pub mod agreement;
+pub mod animation;
 pub mod certificate;
 pub mod colour;
 pub mod depth;
@@ -33,11 +36,13 @@ pub mod palette;
 mod picture;
 mod png;
 pub mod shaded;
+pub mod shadows;
 pub mod sheet;
 pub mod steps;
 mod text;
 
 pub use agreement::Agreement;
+pub use animation::Animation;
 pub use colour::Colour;
 pub use error::ShadeError;
 pub use file::write_atomically;
@@ -45,4 +50,5 @@ pub use kind::{ViewKind, picture, pictures};
 pub use legend::Legend;
 pub use picture::Picture;
 pub use shaded::Light;
+pub use shadows::ShadowRays;
 pub use sheet::Tile;

@@ -90,7 +90,15 @@ impl Picture {
     /// # Errors
     /// If the folder cannot be made or written, or PNG cannot hold the picture.
     pub fn save_png(&self, path: &Path) -> Result<(), ShadeError> {
-        write_atomically(path, &png::encode(path, self)?)
+        write_atomically(path, &self.png(path)?)
+    }
+
+    /// The bytes of the picture's PNG file, with its description; `path` is for messages.
+    ///
+    /// # Errors
+    /// If PNG cannot hold the picture.
+    pub fn png(&self, path: &Path) -> Result<Vec<u8>, ShadeError> {
+        png::encode(path, self)
     }
 
     /// Colours the part of a rectangle that lies in the picture.

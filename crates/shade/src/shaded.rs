@@ -20,7 +20,7 @@ pub struct Light {
 }
 
 impl Light {
-    /// A light that reaches everything.
+    /// A light that reaches everything that faces it.
     pub fn new(direction: Vec3, strength: f32) -> Self {
         Self { direction, strength, blocked: Vec::new() }
     }
@@ -58,7 +58,10 @@ pub fn picture(view: &View, hits: &Hits, lights: &[Light]) -> Result<Picture, Sh
     let none = Colour::oklch(0.55, 0.0, 0.0).bytes();
     let background = Background::new(view);
 
-    let description = "Lambert shading; ivory where the gradient faces the eye";
+    let mut description = String::from("Lambert shading; ivory where the gradient faces the eye");
+    if lights.iter().any(|l| !l.blocked.is_empty()) {
+        description += "; with shadows";
+    }
     let keys = vec![
         Key::new(Colour(front).bytes(), "seen from f > 0"),
         Key::new(Colour(back).bytes(), "seen from f < 0"),
