@@ -9,7 +9,7 @@ use exactly::{Q, Shape, exact, power_of_ten};
 use glam::{DVec3, Vec3};
 use num_traits::One;
 use zeroset_bench::{Class, Registry, judge::lie};
-use zeroset_cpu::Reference;
+use zeroset_cpu::{Arithmetic, Bisection, Reference};
 use zeroset_expr::Function;
 use zeroset_raycast::{
     Camera, Certificate, Domain, Hits, Method, Progress, Projection, Ray, RayBatch, Rays, Request,
@@ -46,6 +46,10 @@ fn ask(method: &dyn Method, scene: &Scene, rays: Rays<'_>) -> Hits {
     hits
 }
 
+fn is_double(method: &dyn Method) -> bool {
+    method.knobs().iter().any(|knob| knob.name == "arithmetic" && knob.value == "double")
+}
+
 /// Judges the reference by the closed form, and every method by both.
 fn check(scene: &Scene, shape: &Shape, rays: Vec<Ray>) -> Count {
     let batch = RayBatch::new(rays);
@@ -65,7 +69,13 @@ fn check(scene: &Scene, shape: &Shape, rays: Vec<Ray>) -> Count {
         count.decided += usize::from(truth.class != Class::Undecidable);
     }
     // Not every method supports domains beyond single precision.
-    for method in Registry::standard().iter().filter(|method| method.supports(scene).is_ok()) {
+    // The bisections in double precision too.
+    let double = [Bisection::kmarch(), Bisection::tbisect(), Bisection::mitchell()]
+        .map(|method| Bisection { arithmetic: Arithmetic::Double, ..method });
+    let double = double.iter().map(|method| method as &dyn Method);
+    let registry = Registry::standard();
+    let methods = registry.iter().chain(double);
+    for method in methods.filter(|method| method.supports(scene).is_ok()) {
         let hits = ask(method, scene, rays);
         for (i, truth) in truths.iter().enumerate() {
             let hit = hits.get(i);
@@ -73,7 +83,7 @@ fn check(scene: &Scene, shape: &Shape, rays: Vec<Ray>) -> Count {
             let fault = roots[i].as_ref().and_then(|roots| roots.contradiction(hit));
             assert_eq!(fault, None, "{}", place());
             assert_eq!(lie(hit, *truth), None, "{}, {truth:?}", place());
-            if method.id() == "kmarch" {
+            if method.id() == "kmarch" && !is_double(method) {
                 count.hits += usize::from(hit.certificate.is_hit());
                 let proofs = [Certificate::PROVEN_HIT, Certificate::PROVEN_MISS];
                 count.proven += usize::from(proofs.contains(&hit.certificate));

@@ -9,7 +9,7 @@ use numbers::{Operation, bounded, exactly, interval, operation};
 use proptest::prelude::*;
 use zeroset_ia::interval::Flavor;
 use zeroset_ia::{
-    Decorated, Decoration, Interval, Isa, Kernel, Narrow, Nearest, Packet, Pair, Plain, Raw,
+    Decorated, Decoration, Interval, Isa, Kernel, Nearest, Packet, Pair, Plain, Raw, Register,
     Rounding, Scalar, Set, dispatch, dispatch_register,
 };
 

@@ -1,27 +1,37 @@
-//! The yardstick: K-marching of the Barth sextic by hand, as a paper's author would write it.
+//! The yardstick: K-marching by hand, as a paper's author would write it.
 //!
 //! Packets of 16 rays (4 by 4 pixels), intervals rounded to nearest, increments by addition, the
-//! equation spelled out. Nothing is generic but the instruction set.
+//! equations spelled out. All is compiled for one surface at a time.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, f32x16};
 
 /// How many of the view's rays hit: rays as (origin, direction), 4x4 pixel blocks in order.
-pub(crate) fn count_hits(packets: &[[[f32; 16]; 6]], half: f32, depth: usize) -> usize {
-    fearless_simd::dispatch!(Level::new(), token => count(token, packets, half, depth))
+pub(crate) fn count_hits<F: Surface>(packets: &[[[f32; 16]; 6]], half: f32, depth: usize) -> usize {
+    fearless_simd::dispatch!(Level::new(), token => count::<_, F>(token, packets, half, depth))
+}
+
+/// A surface with its equation spelled out.
+pub(crate) trait Surface {
+    fn value<S: Simd>(x: Interval<S>, y: Interval<S>, z: Interval<S>) -> Interval<S>;
 }
 
 #[inline(always)]
-fn count<S: Simd>(token: S, packets: &[[[f32; 16]; 6]], half: f32, depth: usize) -> usize {
+fn count<S: Simd, F: Surface>(
+    token: S,
+    packets: &[[[f32; 16]; 6]],
+    half: f32,
+    depth: usize,
+) -> usize {
     let mut hits = 0;
     for packet in packets {
-        hits += march(token, packet, half, depth).count_ones() as usize;
+        hits += march::<_, F>(token, packet, half, depth).count_ones() as usize;
     }
     hits
 }
 
 #[derive(Clone, Copy)]
-struct Interval<S: Simd> {
+pub(crate) struct Interval<S: Simd> {
     lo: f32x16<S>,
     hi: f32x16<S>,
 }
@@ -55,20 +65,77 @@ fn scale<S: Simd>(a: Interval<S>, c: f32) -> Interval<S> {
     Interval { lo: a.lo * c, hi: a.hi * c }
 }
 
+/// A constant added.
 #[inline(always)]
-fn barth<S: Simd>(x: Interval<S>, y: Interval<S>, z: Interval<S>) -> Interval<S> {
-    const PHI: f32 = 1.618_034;
-    const PHI2: f32 = PHI * PHI;
-    let (x2, y2, z2) = (sqr(x), sqr(y), sqr(z));
-    let p = mul(sub(scale(x2, PHI2), y2), sub(scale(y2, PHI2), z2));
-    let p = scale(mul(p, sub(scale(z2, PHI2), x2)), 4.0);
-    let r = add(add(x2, y2), z2);
-    let r = Interval { lo: r.lo - 1.0, hi: r.hi - 1.0 };
-    sub(p, scale(sqr(r), 1.0 + 2.0 * PHI))
+fn offset<S: Simd>(a: Interval<S>, c: f32) -> Interval<S> {
+    Interval { lo: a.lo + c, hi: a.hi + c }
 }
 
 #[inline(always)]
-fn march<S: Simd>(token: S, packet: &[[f32; 16]; 6], half: f32, depth: usize) -> u64 {
+fn neg<S: Simd>(a: Interval<S>) -> Interval<S> {
+    Interval { lo: -a.hi, hi: -a.lo }
+}
+
+/// The root of what is not negative.
+#[inline(always)]
+fn sqrt<S: Simd>(a: Interval<S>) -> Interval<S> {
+    Interval { lo: a.lo.sqrt(), hi: a.hi.sqrt() }
+}
+
+macro_rules! surfaces {
+    ($($(#[$doc:meta])* $name:ident($x:ident, $y:ident, $z:ident) $body:block)*) => {$(
+        $(#[$doc])*
+        pub(crate) struct $name;
+        impl Surface for $name {
+            #[inline(always)]
+            fn value<S: Simd>($x: Interval<S>, $y: Interval<S>, $z: Interval<S>) -> Interval<S> {
+                $body
+            }
+        }
+    )*};
+}
+
+surfaces! {
+    Sphere(x, y, z) {
+        offset(add(add(sqr(x), sqr(y)), sqr(z)), -1.0)
+    }
+    Torus(x, y, z) {
+        let ring = offset(neg(sqrt(add(sqr(x), sqr(y)))), 1.0);
+        offset(add(sqr(ring), sqr(z)), -0.16)
+    }
+    BarthSextic(x, y, z) {
+        const PHI: f32 = 1.618_034;
+        const PHI2: f32 = PHI * PHI;
+        let (x2, y2, z2) = (sqr(x), sqr(y), sqr(z));
+        let p = mul(sub(scale(x2, PHI2), y2), sub(scale(y2, PHI2), z2));
+        let p = scale(mul(p, sub(scale(z2, PHI2), x2)), 4.0);
+        let r = offset(add(add(x2, y2), z2), -1.0);
+        sub(p, scale(sqr(r), 1.0 + 2.0 * PHI))
+    }
+    Tangle(x, y, z) {
+        let (x2, y2, z2) = (sqr(x), sqr(y), sqr(z));
+        let f = sub(sqr(x2), scale(x2, 5.0));
+        let f = sub(add(f, sqr(y2)), scale(y2, 5.0));
+        offset(sub(add(f, sqr(z2)), scale(z2, 5.0)), 11.8)
+    }
+    Mitchell(x, y, z) {
+        let x2 = sqr(x);
+        let yz = add(sqr(y), sqr(z));
+        let f = scale(add(sqr(x2), sqr(yz)), 4.0);
+        let f = add(f, scale(mul(x2, yz), 17.0));
+        offset(sub(f, scale(add(x2, yz), 20.0)), 17.0)
+    }
+    Klein(x, y, z) {
+        let r = add(add(sqr(x), sqr(y)), sqr(z));
+        let a = offset(add(r, scale(y, 2.0)), -1.0);
+        let b = offset(sub(r, scale(y, 2.0)), -1.0);
+        let f = mul(a, sub(sqr(b), scale(sqr(z), 8.0)));
+        add(f, scale(mul(mul(x, z), b), 16.0))
+    }
+}
+
+#[inline(always)]
+fn march<S: Simd, F: Surface>(token: S, packet: &[[f32; 16]; 6], half: f32, depth: usize) -> u64 {
     let v = |i: usize| f32x16::simd_from(token, packet[i]);
     let zero = f32x16::splat(token, 0.0);
     // K: the dominant axis of the first ray.
@@ -115,7 +182,7 @@ fn march<S: Simd>(token: S, packet: &[[f32; 16]; 6], half: f32, depth: usize) ->
             };
             boxes[u] = Interval { lo: u0.min(u1), hi: u0.max(u1) };
             boxes[w] = Interval { lo: w0.min(w1), hi: w0.max(w1) };
-            let f = barth(boxes[0], boxes[1], boxes[2]);
+            let f = F::value(boxes[0], boxes[1], boxes[2]);
             let vanishing =
                 active & f.lo.simd_le(zero).to_bitmask() & zero.simd_le(f.hi).to_bitmask();
             if vanishing != 0 {
