@@ -147,8 +147,7 @@ fn check_tightness<S: Float>(
 ) -> Result<(), TestCaseError> {
     let exempt = matches!(
         operation,
-        Operation::Power(_)
-            | Operation::RealPower(_)
+        Operation::RealPower(_)
             | Operation::Scale(_)
             | Operation::Offset(_)
             | Operation::Unary(Unary::Tan)

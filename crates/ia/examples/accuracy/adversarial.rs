@@ -1,0 +1,5 @@
+//! later
+use crate::Request;
+pub(crate) fn run(_: &Request) -> Result<bool, String> {
+    Err("later".into())
+}
