@@ -14,7 +14,7 @@ pub(crate) enum Settled {
 }
 
 /// The precisions tried in turn, in bits.
-const PRECISIONS: [usize; 3] = [192, 512, 1536];
+const PRECISIONS: [usize; 3] = [128, 320, 1088];
 
 /// The neighbour of `y` on one side.
 #[derive(Clone, Copy, PartialEq)]

@@ -14,6 +14,7 @@
 mod adversarial;
 mod exact;
 mod exhaust;
+mod points;
 
 use std::process::ExitCode;
 
