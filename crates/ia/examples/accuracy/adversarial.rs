@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use zeroset_ia::{BigInterval, Binary, Number, Scalar, Unary};
 
-use crate::Request;
 use crate::exact::{Settled, settle};
 use crate::points::{Random, argument};
+use crate::request::Request;
 
 /// A function as it is called here.
 #[derive(Clone, Copy)]

@@ -13,8 +13,8 @@ use std::time::Instant;
 
 use zeroset_ia::{BigInterval, Number, Scalar, Unary};
 
-use crate::Request;
 use crate::exact::{Settled, Side, neighbour, settle};
+use crate::request::Request;
 
 /// The bound claimed for a function, in units in the last place.
 fn bound(f: Unary) -> f64 {

@@ -15,21 +15,16 @@ mod adversarial;
 mod exact;
 mod exhaust;
 mod points;
+mod request;
 
 use std::process::ExitCode;
 
-/// What the command line asks for.
-struct Request {
-    functions: Vec<String>,
-    stride: u32,
-    points: usize,
-    threads: usize,
-}
+use request::Request;
 
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
     let mode = arguments.next().unwrap_or_default();
-    let all_hold = match (mode.as_str(), request(arguments)) {
+    let all_hold = match (mode.as_str(), Request::read(arguments)) {
         ("exhaust", Ok(request)) => exhaust::run(&request),
         ("adversarial", Ok(request)) => adversarial::run(&request),
         (_, Err(fault)) => Err(fault),
@@ -43,25 +38,4 @@ fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
-}
-
-fn request(mut arguments: impl Iterator<Item = String>) -> Result<Request, String> {
-    let mut request = Request { functions: Vec::new(), stride: 1, points: 2000, threads: 1 };
-    while let Some(argument) = arguments.next() {
-        let mut number = || {
-            let text = arguments.next().ok_or(format!("{argument} needs a number"))?;
-            match text.parse::<u32>() {
-                Ok(n) if n > 0 => Ok(n),
-                _ => Err(format!("{argument} {text}: a number from 1 to 4294967295 is needed")),
-            }
-        };
-        match argument.as_str() {
-            "--stride" => request.stride = number()?,
-            "--points" => request.points = number()? as usize,
-            "--threads" => request.threads = number()? as usize,
-            option if option.starts_with("--") => return Err(format!("no option {option}")),
-            _ => request.functions.push(argument),
-        }
-    }
-    Ok(request)
 }
