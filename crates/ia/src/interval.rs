@@ -38,9 +38,10 @@ impl Flavor for Set {
 ///
 /// If `R` is outward, every operation gives an interval that contains each exact result on members
 /// of its operands, and never a larger one for smaller operands. The excess over the tightest such
-/// interval is at most one unit in the last place an end for sums, products, quotients and square
-/// roots with nudged marks, none with embedded rounding, and two (`f32`) or three (`f64`) units for
-/// elementary functions of [`Scalar::elementary`]. Powers round each of their products.
+/// interval is at most one unit in the last place an end for sums, products, quotients, squares and
+/// square roots with nudged marks, none with embedded rounding, and one (`f32`) or two (`f64`) units
+/// for elementary functions ([`Scalar::elementary`]) of moderate arguments and for integer powers.
+/// Raw integer powers round each of their products.
 #[derive(Clone, Copy, Debug)]
 pub struct Interval<R, F = Raw> {
     /// Lower end.

@@ -31,12 +31,16 @@ impl Random {
 }
 
 /// Zeros, ends of domains, fixed points, overflow and underflow of exponentials, and where a function
-/// turns into its asymptote.
-const SPECIAL: [f64; 36] = [
-    0.0, 0.5, 1.0, 2.0, 3.0, 10.0, 0.1, 0.707, 0.346, 0.693, 1.414, 1.543, 2.718, 8.11, 9.01, 16.6,
-    18.37, 19.06, 22.18, 28.0, 36.04, 37.42, 38.53, 44.85, 87.3, 88.72, 103.97, 126.0, 128.0,
-    149.0, 307.65, 308.25, 323.3, 709.78, 745.13, 1024.0,
+/// turns into its asymptote or a library changes its method.
+const SPECIAL: [f64; 34] = [
+    0.0, 0.03125, 0.125, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 10.0, 0.1, 16.6, 18.37, 19.06, 22.18, 28.0,
+    36.04, 37.42, 38.53, 44.85, 87.34, 88.72, 103.97, 126.0, 128.0, 149.0, 307.65, 308.25, 323.3,
+    708.4, 709.78, 745.13, 1022.0, 1024.0,
 ];
+
+/// Nearer to a multiple of pi/2 than any other double of their size.
+const HARD_ANGLES: [f64; 4] =
+    [5.319372648326541e255, 2.0197660453083944e6, 1.1597110740910382e6, 2.8943728736971784e6];
 
 /// A hard argument: one of many kinds, then moved by a few floats.
 pub(crate) fn argument<S: Scalar>(random: &mut Random) -> S {
@@ -48,7 +52,8 @@ pub(crate) fn argument<S: Scalar>(random: &mut Random) -> S {
         // Any float at all; those that are no numbers become special ones.
         0 if is_single => f64::from(f32::from_bits(random.bits() as u32)),
         0 => f64::from_bits(random.bits()),
-        1 => random.pick(&SPECIAL),
+        1 if random.below(8) == 0 => random.pick(&HARD_ANGLES),
+        1 => random.pick(&SPECIAL) * (1.0 + power_of_two(exponent(random, -60, 0)) * random.unit()),
         // Near multiples of pi/2, small ones and large ones.
         2 => {
             let largest = 1 << (1 + random.below(digits as u64 - 1));
@@ -69,9 +74,8 @@ pub(crate) fn argument<S: Scalar>(random: &mut Random) -> S {
     };
     let x = if x.is_finite() { x } else { 1.0 };
     let mut x = S::from_f64(if random.below(2) == 0 { x } else { -x });
-    let steps = random.below(4);
-    for _ in 0..steps * (random.below(2)) {
-        x = if steps % 2 == 0 { x.up() } else { x.down() };
+    for _ in 0..random.below(4) {
+        x = if random.below(2) == 0 { x.up() } else { x.down() };
     }
     if x.to_f64().is_finite() { x } else { S::from_f64(1.0) }
 }
