@@ -26,6 +26,7 @@ fn chain<T: Copy>(x: T, n: u32, product: impl Fn(T, T) -> T) -> T {
 ///
 /// In double precision, at most 1024 roundings of 2^-53 each; where that overflows, or loses digits to
 /// underflow, the float does all the more.
+#[inline]
 pub(crate) fn power_f32(x: f32, n: i32) -> f32 {
     let x = f64::from(x);
     if n.unsigned_abs() > LONGEST {
@@ -42,6 +43,7 @@ type Sum = [f64; 2];
 ///
 /// As a double-double, each product of which errs by less than 2^-100 of its value, if neither the
 /// power nor any rounding error of a product leaves the normal range.
+#[inline]
 pub(crate) fn power_f64(x: f64, n: i32) -> f64 {
     // 2^-900 leaves room for the errors of products, 2^-106 of them; 2^1000 for one more product.
     const SAFE: std::ops::Range<f64> = f64::from_bits(123 << 52)..f64::from_bits(2023 << 52);

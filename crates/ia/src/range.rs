@@ -238,20 +238,12 @@ pub(crate) fn integer_power<S: Scalar>(x: [S; 2], n: i32) -> [S; 2] {
     [-least, most]
 }
 
-/// From `x[0]^n` rounded down to `x[1]^n` rounded up, for `x >= 0`, with the limits at 0 and infinity.
+/// From `x[0]^n` rounded down to `x[1]^n` rounded up, for `x >= 0`.
 fn positive_power<S: Scalar>(x: [S; 2], n: i32) -> [S; 2] {
     let (zero, one) = (zero(), S::from_f64(1.0));
+    // The limits at 0 and infinity, too; adding 0 turns -0 into +0.
     let is_exact = |x: S| x == zero || x == one || x == S::INFINITY;
-    let [lo, hi] = x.map(|x| {
-        let limit = if x == one {
-            one
-        } else if (x < one) == (n < 0) {
-            S::INFINITY
-        } else {
-            zero
-        };
-        if is_exact(x) { limit } else { x.power(n) }
-    });
+    let [lo, hi] = x.map(|x| (x + zero).power(n));
     let lo = if is_exact(x[0]) { lo } else { lo.elementary_down().max(zero) };
     [lo, if is_exact(x[1]) { hi } else { hi.elementary_up() }]
 }

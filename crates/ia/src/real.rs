@@ -441,6 +441,7 @@ impl Scalar for f32 {
     fn elementary2(self, f: crate::Binary, y: Self) -> Self {
         crate::elementary::binary_f32(f, self, y)
     }
+    #[inline]
     fn power(self, n: i32) -> Self {
         crate::power::power_f32(self, n)
     }
@@ -481,6 +482,7 @@ impl Scalar for f64 {
     fn elementary2(self, f: crate::Binary, y: Self) -> Self {
         crate::elementary::binary_f64(f, self, y)
     }
+    #[inline]
     fn power(self, n: i32) -> Self {
         crate::power::power_f64(self, n)
     }
