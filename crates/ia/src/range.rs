@@ -238,14 +238,17 @@ pub(crate) fn integer_power<S: Scalar>(x: [S; 2], n: i32) -> [S; 2] {
     [-least, most]
 }
 
-/// From `x[0]^n` rounded down to `x[1]^n` rounded up, for `x >= 0`.
+/// From `x[0]^n` rounded down to `x[1]^n` rounded up, for `x >= 0`, on the same side of 1 as exactly.
 fn positive_power<S: Scalar>(x: [S; 2], n: i32) -> [S; 2] {
     let (zero, one) = (zero(), S::from_f64(1.0));
     // The limits at 0 and infinity, too; adding 0 turns -0 into +0.
-    let is_exact = |x: S| x == zero || x == one || x == S::INFINITY;
     let [lo, hi] = x.map(|x| (x + zero).power(n));
-    let lo = if is_exact(x[0]) { lo } else { lo.elementary_down().max(zero) };
-    [lo, if is_exact(x[1]) { hi } else { hi.elementary_up() }]
+    let is_at_least_one = if n > 0 { x[0] >= one } else { x[0] <= one };
+    let is_at_most_one = if n > 0 { x[1] <= one } else { x[1] >= one };
+    let lo = lo.elementary_down().max(if is_at_least_one { one } else { zero });
+    let is_limit = x[1] == zero || x[1] == S::INFINITY;
+    let hi = if is_limit { hi } else { hi.elementary_up() };
+    [lo, if is_at_most_one { hi.min(one) } else { hi }]
 }
 
 /// `floor(x/y)` for `y > 0`, or its limit, if it is small enough to be known.
