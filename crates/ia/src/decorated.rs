@@ -3,7 +3,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::range::{self, Domain};
-use crate::{Binary, Constant, Interval, Number, Scalar, Set, Unary};
+use crate::{Binary, Constant, Interval, Number, Raw, Scalar, Set, Unary};
 
 /// What holds of a function on a box (IEEE 1788-2015, chapter 11); the later implies the earlier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -22,7 +22,8 @@ pub enum Decoration {
 /// [`Continuous`](Decoration::Continuous) on it: a pole changes sign too.
 ///
 /// Sums and products of numbers that are not negative are cut at 0, so that `sqrt(x^2 + y^2)` stays
-/// defined where rounding down would give a tiny negative number.
+/// defined where rounding down would give a tiny negative number. Integer powers are as wide as those
+/// of [`Raw`], so that what holds of a box here holds there.
 #[derive(Clone, Copy, Debug)]
 pub struct Decorated<S> {
     /// The range over the part of the box where the function is defined.
@@ -189,8 +190,13 @@ impl<S: Scalar> Number for Decorated<S> {
     fn powi(self, n: i32) -> Self {
         let side = if n % 2 == 0 { Side::NotNegative } else { self.side() };
         let defined = n >= 0 || !self.interval.contains_zero();
-        let power = side.cut(self.interval.powi(n));
-        self.composed(power, continuous_if(defined, Decoration::Trivial))
+        let mut power = self.interval.powi(n);
+        if defined && !power.is_empty() {
+            let [lo, hi] =
+                Interval::<S, Raw>::new(self.interval.lo, self.interval.hi).powi(n).bounds();
+            power = power.hull(Interval::new(lo, hi));
+        }
+        self.composed(side.cut(power), continuous_if(defined, Decoration::Trivial))
     }
 
     fn powc(self, c: &Constant) -> Self {
@@ -259,7 +265,9 @@ mod tests {
             (Unary::Acosh, 1.0, 2.0, Continuous),
             (Unary::Atanh, -0.5, 1.0, Trivial),
             (Unary::Tan, -1.5, 1.5, Continuous),
-            (Unary::Tan, half_pi, half_pi, Trivial),
+            // The pole lies between these neighbours.
+            (Unary::Tan, half_pi, half_pi.next_up(), Trivial),
+            (Unary::Tan, -half_pi, half_pi, Continuous),
             (Unary::Tan, 1.0, 2.0, Trivial),
             (Unary::Floor, 2.0, 2.5, Continuous),
             (Unary::Floor, 1.5, 2.0, Defined),

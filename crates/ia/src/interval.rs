@@ -38,9 +38,10 @@ impl Flavor for Set {
 ///
 /// If `R` is outward, every operation gives an interval that contains each exact result on members
 /// of its operands, and never a larger one for smaller operands. The excess over the tightest such
-/// interval is at most one unit in the last place an end for sums, products, quotients and square
-/// roots with nudged marks, none with embedded rounding, and two (`f32`) or three (`f64`) units for
-/// elementary functions of [`Scalar::elementary`]. Powers round each of their products.
+/// interval is at most one unit in the last place an end for sums, products, quotients, squares and
+/// square roots with nudged marks, none with embedded rounding, and one (`f32`) or two (`f64`) units
+/// for elementary functions ([`Scalar::elementary`]) of moderate arguments and for integer powers.
+/// Raw integer powers round each of their products.
 #[derive(Clone, Copy, Debug)]
 pub struct Interval<R, F = Raw> {
     /// Lower end.
@@ -69,10 +70,23 @@ impl<R: Real, F: Flavor> Interval<R, F> {
         [self.lo, self.hi]
     }
 
-    /// The smallest interval that contains both operands, neither of which may be empty.
+    /// The smallest interval that contains both operands ("convexHull").
     #[inline(always)]
     pub fn hull(self, other: Self) -> Self {
-        Self::new(self.lo.min(other.lo), self.hi.max(other.hi))
+        let both = Self::new(self.lo.min(other.lo), self.hi.max(other.hi));
+        if F::SET { both.or_where_empty(other, self).or_where_empty(self, other) } else { both }
+    }
+
+    /// The common members; of raw intervals, which must have some.
+    #[inline(always)]
+    pub fn intersection(self, other: Self) -> Self {
+        let (lo, hi) = (self.lo.max(other.lo), self.hi.min(other.hi));
+        if !F::SET {
+            return Self::new(lo, hi);
+        }
+        let nan = lo.splat(R::Scalar::NAN);
+        let common = Self::new(hi.select_lt(lo, nan, lo), hi.select_lt(lo, nan, hi));
+        common.empty_where(self).empty_where(other)
     }
 
     /// Largest absolute value: `max(-lo, hi)`.
@@ -94,9 +108,9 @@ impl<R: Real, F: Flavor> Interval<R, F> {
         Self::new(lo, hi)
     }
 
-    /// `self^n` for `n >= 2`.
+    /// `self^n` for `n >= 2` by products, each of which is rounded.
     #[inline(always)]
-    fn power(self, n: u32) -> Self {
+    fn products(self, n: u32) -> Self {
         if n.is_multiple_of(2) {
             let [lo, hi] = powers(self.mignitude(), self.magnitude(), n);
             return Self::new(lo, hi).empty_where(self);
@@ -116,9 +130,16 @@ impl<R: Real, F: Flavor> Interval<R, F> {
         if !F::SET {
             return self;
         }
+        self.or_where_empty(x, Self::point(x.lo.splat(R::Scalar::NAN)))
+    }
+
+    /// `other` where `x` is empty.
+    #[inline(always)]
+    fn or_where_empty(self, x: Self, other: Self) -> Self {
+        // No lower end is infinity; NaN is not below it.
         let infinity = x.lo.splat(R::Scalar::INFINITY);
-        let nan = x.lo.splat(R::Scalar::NAN);
-        Self::new(x.lo.select_lt(infinity, self.lo, nan), x.lo.select_lt(infinity, self.hi, nan))
+        let lo = x.lo.select_lt(infinity, self.lo, other.lo);
+        Self::new(lo, x.lo.select_lt(infinity, self.hi, other.hi))
     }
 }
 
@@ -154,14 +175,6 @@ impl<S: Scalar, F: Flavor> Interval<S, F> {
 #[inline(always)]
 fn zero<R: Real>(x: R) -> R {
     x.splat(R::Scalar::from_f64(0.0))
-}
-
-/// The product with `0 * inf = 0`, and 0 for NaN.
-#[inline(always)]
-fn product<R: Real>(x: R, y: R) -> R {
-    let p = x * y;
-    let zero = zero(x);
-    p.select_lt(zero, p, zero.select_lt(p, p, zero))
 }
 
 /// `[a^n rounded down, b^n rounded up]` for `a, b >= 0`, `n >= 1`. Without closures, which would lose
@@ -215,12 +228,7 @@ impl<R: Real, F: Flavor> Mul for Interval<R, F> {
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
         if F::SET {
-            let p = product(self.lo, o.lo);
-            let q = product(self.lo, o.hi);
-            let r = product(self.hi, o.lo);
-            let s = product(self.hi, o.hi);
-            let lo = p.min(q).min(r.min(s)).down();
-            let hi = p.max(q).max(r.max(s)).up();
+            let [lo, hi] = R::mul_bounds_unbounded(self.bounds(), o.bounds());
             Self::new(lo, hi).empty_where(self).empty_where(o)
         } else {
             let [lo, hi] = R::mul_bounds(self.bounds(), o.bounds());
@@ -245,10 +253,12 @@ impl<R: Real, F: Flavor> Div for Interval<R, F> {
         if !F::SET {
             return Self::new(lo, hi);
         }
-        // 0 inside the divisor: everything, unless the dividend is 0 alone.
+        // 0 inside the divisor: everything, unless the dividend is 0 alone: then 0, as wide as any
+        // smaller divisor makes it.
         let infinity = zero.splat(R::Scalar::INFINITY);
-        let low = a.select_lt(zero, -infinity, zero.select_lt(b, -infinity, zero.down()));
-        let high = a.select_lt(zero, infinity, zero.select_lt(b, infinity, zero.up()));
+        let [down, up] = [zero.mul_down(zero), zero.mul_up(zero)];
+        let low = a.select_lt(zero, -infinity, zero.select_lt(b, -infinity, down));
+        let high = a.select_lt(zero, infinity, zero.select_lt(b, infinity, up));
         let around = Self::new(c.select_lt(zero, low, lo), c.select_lt(zero, high, hi));
         // Divisor 0 alone: nothing.
         let nan = zero.splat(R::Scalar::NAN);
@@ -298,9 +308,11 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
         match n {
             0 => one.empty_where(self),
             1 => self,
-            2.. => self.power(n.unsigned_abs()),
+            2 => self.sqr(),
             -1 => one / self,
-            _ => one / self.power(n.unsigned_abs()),
+            _ if F::SET => self.map(|x| range::integer_power(x, n)),
+            3.. => self.products(n.unsigned_abs()),
+            _ => one / self.products(n.unsigned_abs()),
         }
     }
 

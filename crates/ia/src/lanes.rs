@@ -247,6 +247,19 @@ pub mod embedded {
             let hi = a[0].mul_up(b[0]).max(a[0].mul_up(b[1]));
             [lo, hi.max(a[1].mul_up(b[0]).max(a[1].mul_up(b[1])))]
         }
+        #[inline(always)]
+        fn mul_bounds_unbounded(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+            let p = a[0].mul_down(b[0]).zero_where_nan();
+            let q = a[0].mul_down(b[1]).zero_where_nan();
+            let r = a[1].mul_down(b[0]).zero_where_nan();
+            let s = a[1].mul_down(b[1]).zero_where_nan();
+            let lo = p.min(q).min(r.min(s));
+            let p = a[0].mul_up(b[0]).zero_where_nan();
+            let q = a[0].mul_up(b[1]).zero_where_nan();
+            let r = a[1].mul_up(b[0]).zero_where_nan();
+            let s = a[1].mul_up(b[1]).zero_where_nan();
+            [lo, p.max(q).max(r.max(s))]
+        }
     }
 
     impl Packet for EmbeddedLanes {

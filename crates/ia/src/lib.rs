@@ -36,6 +36,7 @@ pub mod lanes;
 pub mod nearest;
 pub mod number;
 pub mod plain;
+mod power;
 mod range;
 pub mod real;
 mod single;

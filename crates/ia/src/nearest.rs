@@ -137,6 +137,9 @@ macro_rules! nearest_scalar {
             fn elementary2(self, f: crate::Binary, y: Self) -> Self {
                 Nearest(self.0.elementary2(f, y.0))
             }
+            fn power(self, n: i32) -> Self {
+                Nearest(self.0.power(n))
+            }
             fn elementary_down(self) -> Self {
                 self
             }

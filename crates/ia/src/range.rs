@@ -118,9 +118,26 @@ fn wave<S: Scalar>(f: Unary, x: [S; 2], crest: f64) -> [S; 2] {
     clamp([lo, hi], -1.0, 1.0)
 }
 
+/// Is `b - a` certainly below pi?
+fn is_narrower_than_pi(a: f64, b: f64) -> bool {
+    let width = b - a;
+    // What the subtraction lost; the double nearest to pi lies below it.
+    let part = width - b;
+    let lost = (b - (width - part)) - (a + part);
+    width < PI || width == PI && lost <= 0.0
+}
+
 /// Does the tangent have a pole in `x`, as far as can be told?
+///
+/// A pole between two numbers less than pi apart makes the second tangent the smaller one; and no float
+/// is a pole.
 pub(crate) fn has_pole<S: Scalar>(x: [S; 2]) -> bool {
-    passes(quarter_turns(x), 1.0, 2.0)
+    let increases = || {
+        let [a, b] = x.map(|x| x.elementary(Unary::Tan));
+        x[0] == x[1] || a.elementary_up() < b.elementary_down()
+    };
+    let is_narrow = is_narrower_than_pi(x[0].to_f64(), x[1].to_f64());
+    passes(quarter_turns(x), 1.0, 2.0) && !(is_narrow && increases())
 }
 
 /// The range of `f` over `x`.
@@ -194,6 +211,44 @@ pub(crate) fn power<S: Scalar>(x: [S; 2], y: [S; 2]) -> [S; 2] {
     let [c, d] = [y[0], y[1]].map(|y| x[1].elementary2(Binary::Pow, y));
     let lo = a.min(b).min(c.min(d)).elementary_down();
     [lo.max(zero), a.max(b).max(c.max(d)).elementary_up()]
+}
+
+/// `x^n` for `n != 0`, over `x != 0` if `n < 0`.
+pub(crate) fn integer_power<S: Scalar>(x: [S; 2], n: i32) -> [S; 2] {
+    let (zero, one) = (zero(), S::from_f64(1.0));
+    if is_empty(x) || n < 0 && x[0] >= zero && x[1] <= zero {
+        return empty();
+    }
+    if n % 2 == 0 {
+        let [least, most] = magnitudes(x);
+        return positive_power(if n < 0 { [most, least] } else { [least, most] }, n);
+    }
+    // Odd powers have the sign of x.
+    if x[0] >= zero {
+        return positive_power(if n < 0 { [x[1], x[0]] } else { x }, n);
+    }
+    if x[1] <= zero {
+        let [lo, hi] = integer_power([-x[1], -x[0]], n);
+        return [-hi, -lo];
+    }
+    if n < 0 {
+        return entire();
+    }
+    let [least, most] = [-x[0], x[1]].map(|x| positive_power([one, x], n)[1]);
+    [-least, most]
+}
+
+/// From `x[0]^n` rounded down to `x[1]^n` rounded up, for `x >= 0`, on the same side of 1 as exactly.
+fn positive_power<S: Scalar>(x: [S; 2], n: i32) -> [S; 2] {
+    let (zero, one) = (zero(), S::from_f64(1.0));
+    // The limits at 0 and infinity, too; adding 0 turns -0 into +0.
+    let [lo, hi] = x.map(|x| (x + zero).power(n));
+    let is_at_least_one = if n > 0 { x[0] >= one } else { x[0] <= one };
+    let is_at_most_one = if n > 0 { x[1] <= one } else { x[1] >= one };
+    let lo = lo.elementary_down().max(if is_at_least_one { one } else { zero });
+    let is_limit = x[1] == zero || x[1] == S::INFINITY;
+    let hi = if is_limit { hi } else { hi.elementary_up() };
+    [lo, if is_at_most_one { hi.min(one) } else { hi }]
 }
 
 /// `floor(x/y)` for `y > 0`, or its limit, if it is small enough to be known.

@@ -118,6 +118,24 @@ pub trait Real:
         let s = a[1] * b[1];
         [p.min(q).min(r.min(s)).down(), p.max(q).max(r.max(s)).up()]
     }
+    /// [`mul_bounds`](Real::mul_bounds) for ends that may be infinite: 0 times anything is 0, as in the
+    /// limit. NaN counts as 0.
+    #[inline(always)]
+    fn mul_bounds_unbounded(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        let p = (a[0] * b[0]).zero_where_nan();
+        let q = (a[0] * b[1]).zero_where_nan();
+        let r = (a[1] * b[0]).zero_where_nan();
+        let s = (a[1] * b[1]).zero_where_nan();
+        [p.min(q).min(r.min(s)).down(), p.max(q).max(r.max(s)).up()]
+    }
+    /// `self`, or 0 where it is NaN.
+    #[inline(always)]
+    fn zero_where_nan(self) -> Self {
+        let zero = self.splat(Self::Scalar::from_f64(0.0));
+        // Minus its absolute value, every number lies below 1; NaN does not.
+        let one = self.splat(Self::Scalar::from_f64(1.0));
+        (-self.abs()).select_lt(one, self, zero)
+    }
 }
 
 /// A real that is a single float: code over it may branch.
@@ -140,6 +158,8 @@ pub trait Scalar: Real<Scalar = Self> + PartialOrd {
     fn elementary(self, f: crate::Unary) -> Self;
     /// `f(self, y)` for `atan2(self, y)`, `hypot` and `pow`, with the error of `elementary`.
     fn elementary2(self, f: crate::Binary, y: Self) -> Self;
+    /// `self^n`, with the error of `elementary`.
+    fn power(self, n: i32) -> Self;
     /// A lower bound of a result that carries the error of [`elementary`](Scalar::elementary).
     fn elementary_down(self) -> Self;
     /// An upper bound of a result that carries the error of [`elementary`](Scalar::elementary).
@@ -356,6 +376,12 @@ impl<R: Real> Real for Pair<R> {
         let q = R::mul_bounds([a[0].1, a[1].1], [b[0].1, b[1].1]);
         [Pair(p[0], q[0]), Pair(p[1], q[1])]
     }
+    #[inline(always)]
+    fn mul_bounds_unbounded(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        let p = R::mul_bounds_unbounded([a[0].0, a[1].0], [b[0].0, b[1].0]);
+        let q = R::mul_bounds_unbounded([a[0].1, a[1].1], [b[0].1, b[1].1]);
+        [Pair(p[0], q[0]), Pair(p[1], q[1])]
+    }
 }
 
 impl<R: Packet> Packet for Pair<R> {
@@ -426,6 +452,10 @@ impl Scalar for f32 {
     fn elementary2(self, f: crate::Binary, y: Self) -> Self {
         crate::elementary::binary_f32(f, self, y)
     }
+    #[inline]
+    fn power(self, n: i32) -> Self {
+        crate::power::power_f32(self, n)
+    }
     fn elementary_down(self) -> Self {
         self.next_down()
     }
@@ -462,6 +492,10 @@ impl Scalar for f64 {
     }
     fn elementary2(self, f: crate::Binary, y: Self) -> Self {
         crate::elementary::binary_f64(f, self, y)
+    }
+    #[inline]
+    fn power(self, n: i32) -> Self {
+        crate::power::power_f64(self, n)
     }
     fn elementary_down(self) -> Self {
         self.next_down().next_down()

@@ -10,8 +10,8 @@ use std::fmt;
 use std::path::Path;
 
 use zeroset_ia::{
-    Binary, Decorated, Decoration, Interval, Isa, Kernel, Number, Packet, Rounding, Scalar, Set,
-    Unary, dispatch,
+    Binary, Decorated, Decoration, Interval, Isa, Kernel, Number, Packet, Real, Rounding, Scalar,
+    Set, Unary, dispatch,
 };
 
 /// An interval in double precision; `None` is empty.
@@ -149,9 +149,41 @@ fn number(text: &str) -> Result<f64, String> {
     Ok(sign * digits as f64 * 2.0_f64.powi(shift / 2) * 2.0_f64.powi(shift - shift / 2))
 }
 
+/// A number that is a set.
+trait Sets: Number {
+    fn intersection(self, other: Self) -> Self;
+    fn hull(self, other: Self) -> Self;
+}
+
+impl<R: Real> Sets for Interval<R, Set> {
+    #[inline(always)]
+    fn intersection(self, other: Self) -> Self {
+        Interval::intersection(self, other)
+    }
+    #[inline(always)]
+    fn hull(self, other: Self) -> Self {
+        Interval::hull(self, other)
+    }
+}
+
+/// As the standard has it: no function is known to have the result as its range.
+impl<S: Scalar> Sets for Decorated<S> {
+    fn intersection(self, other: Self) -> Self {
+        let interval = self.interval.intersection(other.interval);
+        Self { interval, decoration: Decoration::Trivial }
+    }
+    fn hull(self, other: Self) -> Self {
+        let interval = self.interval.hull(other.interval);
+        Self { interval, decoration: Decoration::Trivial }
+    }
+}
+
 /// The operation on any number; `None` if there is no such operation.
-fn apply<N: Number>(op: &str, x: &[N], exponent: Option<i32>, one: N) -> Option<N> {
+#[inline(always)]
+fn apply<N: Sets>(op: &str, x: &[N], exponent: Option<i32>, one: N) -> Option<N> {
     let result = match (op, x) {
+        ("intersection", [x, y]) => x.clone().intersection(y.clone()),
+        ("convexHull", [x, y]) => x.clone().hull(y.clone()),
         ("neg", [x]) => -x.clone(),
         ("recip", [x]) => one / x.clone(),
         ("sqr", [x]) => x.clone().sqr(),
@@ -218,18 +250,26 @@ impl Row {
         if let Some(why) = &self.unusable {
             return Outcome::Skipped(why.clone());
         }
-        let result = match arithmetic {
+        let results = match arithmetic {
             Arithmetic::Double if self.is_rounded => {
                 return Outcome::Skipped("rounded to f32".into());
             }
-            Arithmetic::Double => self.decorated::<f64>(),
-            Arithmetic::Single => self.decorated::<f32>(),
-            Arithmetic::Lanes(isa, rounding) => dispatch(isa, rounding, InLanes(self)),
+            Arithmetic::Double => self.scalar::<f64>(),
+            Arithmetic::Single => self.scalar::<f32>(),
+            Arithmetic::Lanes(isa, rounding) => dispatch(isa, rounding, InLanes(self))
+                .map(|bounds| vec![(bounds, Decoration::Trivial)]),
         };
-        let Some((bounds, decoration)) = result else {
+        let Some(results) = results else {
             return Outcome::Skipped(format!("no operation {}", self.op));
         };
-        self.judge(bounds, decoration, arithmetic == Arithmetic::Double)
+        let mut outcome = Outcome::Skipped("no result".into());
+        for (bounds, decoration) in results {
+            outcome = self.judge(bounds, decoration, arithmetic == Arithmetic::Double);
+            if matches!(outcome, Outcome::Violation(_)) {
+                break;
+            }
+        }
+        outcome
     }
 
     fn judge(&self, bounds: Bounds, decoration: Decoration, is_double: bool) -> Outcome {
@@ -245,8 +285,10 @@ impl Row {
             ));
         }
         let (Some([lo, hi]), Some([a, b])) = (bounds, self.expected) else {
-            // Empty, and so both; or not empty where it could be: as loose as can be.
-            return Outcome::Sound(Some(if bounds.is_some() { f64::INFINITY } else { 0.0 }));
+            // Empty, and so both; or not empty where it could be: as loose as can be, unless it was made
+            // so when the input was rounded.
+            let slack = if bounds.is_some() { f64::INFINITY } else { 0.0 };
+            return Outcome::Sound((is_double || self.is_single).then_some(slack));
         };
         let slack = if is_double {
             Some(steps::<f64>(lo, a).max(steps::<f64>(b, hi)))
@@ -259,19 +301,20 @@ impl Row {
         Outcome::Sound(slack)
     }
 
-    fn decorated<S: Scalar>(&self) -> Option<(Bounds, Decoration)> {
-        let x: Vec<_> = self
-            .inputs
-            .iter()
-            .map(|(bounds, decoration)| {
-                let interval = enclosed::<S>(*bounds);
+    /// The result in decorated intervals, and the one in plain intervals, of which the slack is reported.
+    fn scalar<S: Scalar>(&self) -> Option<Vec<(Bounds, Decoration)>> {
+        let x: Vec<_> = self.inputs.iter().map(|(bounds, _)| enclosed::<S>(*bounds)).collect();
+        let decorated: Vec<_> = (x.iter().zip(&self.inputs))
+            .map(|(&interval, (_, decoration))| {
                 let decoration = Decorated::new(interval).decoration.min(*decoration);
                 Decorated { interval, decoration }
             })
             .collect();
-        let one = Decorated::new(Interval::point(S::from_f64(1.0)));
-        let Decorated { interval, decoration } = apply(&self.op, &x, self.exponent, one)?;
-        Some((bounds(interval), decoration))
+        let one = Interval::point(S::from_f64(1.0));
+        let plain = apply(&self.op, &x, self.exponent, one)?;
+        let Decorated { interval, decoration } =
+            apply(&self.op, &decorated, self.exponent, Decorated::new(one))?;
+        Some(vec![(bounds(interval), decoration), (bounds(plain), Decoration::Trivial)])
     }
 }
 
@@ -279,7 +322,7 @@ impl Row {
 struct InLanes<'a>(&'a Row);
 
 impl Kernel for InLanes<'_> {
-    type Output = Option<(Bounds, Decoration)>;
+    type Output = Option<Bounds>;
     #[inline(always)]
     fn run<R: Packet>(self, zero: R) -> Self::Output {
         let in_lanes = |[lo, hi]: [f64; 2]| {
@@ -296,7 +339,7 @@ impl Kernel for InLanes<'_> {
         let lane = |i| Interval::new(result.lo.lane(i), result.hi.lane(i));
         let first = bounds::<R::Scalar>(lane(0));
         assert!((1..R::LANES).all(|i| bounds(lane(i)) == first), "lanes differ");
-        Some((first, Decoration::Trivial))
+        Some(first)
     }
 }
 
