@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use zeroset::bench::{Class, Oracle, Sample, truth};
+use zeroset::bench::{Class, Sample, truth};
 use zeroset::cpu::{Algorithm, Bisection, Finishing, Normals, Poles, Stop};
 use zeroset::ia::{Isa, Rounding};
 use zeroset::raycast::catalogue::Catalogue;
@@ -171,7 +171,7 @@ fn depths(size: usize) -> Result<(), Failure> {
         let rays = Rays::View(&view);
         let all = Sample::every(1, rays);
         let truths = truth::reference(&scene)?.classify(rays, &all.indices, &Progress::new())?;
-        let truly: Vec<bool> = truths.iter().map(|truth| truth.class != Class::Miss).collect();
+        let truly: Vec<bool> = truths.iter().map(|truth| truth.class != Class::None).collect();
         let mut row = Vec::new();
         let mut right = None;
         for depth in DEPTHS {
@@ -241,7 +241,7 @@ fn fig_4_and_6(size: usize) -> Result<(), Failure> {
     {
         let hit = |i: &usize| frame.hits.certificate[*i].is_hit();
         let hits = (0..rays.len()).filter(hit).count();
-        let is_false = |i: &usize| hit(i) && truths[*i].class == Class::Miss;
+        let is_false = |i: &usize| hit(i) && truths[*i].class == Class::None;
         let false_hits = (0..rays.len()).filter(is_false).count();
         println!("| {name} | {:.1} | {hits} | {false_hits} |", frame.ms);
     }
