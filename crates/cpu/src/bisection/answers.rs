@@ -75,13 +75,22 @@ impl<'a> Answers<'a> {
         let clip =
             self.domain.clip(line, self.goal.range).expect("a marching ray meets the domain");
         let settled = &mut self.settled[ray];
-        let start = lo.max(settled.empty_until);
-        settled.times += 1;
-        let mut work = Work::default();
-        let finding =
-            finish.settle(line, clip, start, hi - lo, settled.times - 1, width, &mut work);
-        self.hits[ray].work += work;
-        Some(finding)
+        let work = &mut self.hits[ray].work;
+        let mut start = lo.max(settled.empty_until);
+        loop {
+            settled.times += 1;
+            let finding = finish.settle(line, clip, start, hi - lo, settled.times - 1, width, work);
+            match finding {
+                // The march does not come back to the rest of the piece.
+                Finding::EmptyUntil(t) if t < hi => {
+                    if work.gradients >= finish::RAY_BUDGET {
+                        return Some(Finding::Unknown([t, hi]));
+                    }
+                    start = t;
+                }
+                _ => return Some(finding),
+            }
+        }
     }
 
     /// What is told of a piece as it is.

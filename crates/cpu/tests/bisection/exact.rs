@@ -137,6 +137,29 @@ fn double_sheets_are_never_proven_wrongly() {
     }
 }
 
+/// Far narrower brackets than single precision resolves: the finish examines many parts of a slab, and
+/// what it leaves of it must not be forgotten.
+#[test]
+fn fine_widths_lose_no_root() {
+    let one = || Poly::integer(1);
+    let squared = |p: Poly| p.pow(2);
+    for algorithm in ALGORITHMS {
+        for width in [1e-9, 1e-12, 1e-14] {
+            let method = Bisection { stop: Stop::Width(width), ..Bisection::new(algorithm) };
+            check("(x^2+y^2+z^2-1)^2", 1.25, &method, |p| {
+                squared(&sum(p.map(|v| v.pow(2))) - &one())
+            });
+            check("(3*x-1)^2*(y+3)", 1.0, &method, |[x, y, _]| {
+                &squared(&x.times(3) - &one()) * &(&y + &Poly::integer(3))
+            });
+            check("(x^3-y-1/8)^2*(z+3)", 1.0, &method, |[x, y, z]| {
+                let cubic = &(&x.pow(3) - &y) - &Poly::number(fraction(1, 8));
+                &squared(cubic) * &(&z + &Poly::integer(3))
+            });
+        }
+    }
+}
+
 #[test]
 fn large_values_are_cast_in_double_precision() {
     // 1e60 is beyond single precision.
