@@ -243,11 +243,11 @@ impl<R: Real, F: Flavor> Div for Interval<R, F> {
     #[inline(always)]
     fn div(self, o: Self) -> Self {
         let zero = zero(self.lo);
-        // x / y = (-x) / (-y) makes the divisor positive; adding 0 makes -0 into +0.
+        // x / y = (-x) / (-y) makes the divisor positive; adding 0 makes -0 into +0 (d = 0 has no quotient).
         let a = zero.select_lt(o.hi, self.lo, -self.hi);
         let b = zero.select_lt(o.hi, self.hi, -self.lo);
         let c = zero.select_lt(o.hi, o.lo, -o.hi) + zero;
-        let d = zero.select_lt(o.hi, o.hi, -o.lo) + zero;
+        let d = zero.select_lt(o.hi, o.hi, -o.lo);
         let lo = a.div_down(a.select_lt(zero, c, d));
         let hi = b.div_up(zero.select_lt(b, c, d));
         if !F::SET {

@@ -160,7 +160,8 @@ pub fn operation() -> impl Strategy<Value = Operation> {
             Operation::Add, Operation::Sub, Operation::Mul, Operation::Div, Operation::Neg,
             Operation::Sqr,
         ]),
-        2 => (-9..12i32).prop_map(Operation::Power),
+        // 14 and 15 have three binary digits to multiply.
+        2 => (-15..16i32).prop_map(Operation::Power),
         1 => constant().prop_map(Operation::RealPower),
         1 => constant().prop_map(Operation::Scale),
         1 => constant().prop_map(Operation::Offset),
