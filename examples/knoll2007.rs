@@ -6,8 +6,8 @@
 use std::time::Instant;
 
 use zeroset::bench::{Class, Sample, truth};
-use zeroset::cpu::{Algorithm, Bisection, Finishing, Normals, Poles, Stop};
-use zeroset::ia::{Isa, Rounding};
+use zeroset::cpu::{Algorithm, Bisection, Finishing, Normals, Packets, Poles, Stop};
+use zeroset::ia::{Isa, Register, Rounding};
 use zeroset::raycast::catalogue::Catalogue;
 use zeroset::raycast::{
     Camera, Hits, Intersector, Method, Progress, Rays, Request, Scene, View, Work,
@@ -103,24 +103,30 @@ fn table_1(size: usize) -> Result<(), Failure> {
         ("mitchell", [[5.9, 5.7, 0.61], [1.3, 1.0, 0.24]]),
     ];
     println!("## Table 1\n");
-    println!(
-        "| function | depth | algorithm | ms | intervals a ray | gradients | points | K over it | paper |"
-    );
-    println!("|---|---|---|---|---|---|---|---|---|");
+    println!("K's frames over the algorithm's, in packets of 4 and of 32 rays, and as printed.\n");
+    let titles = ["function", "depth", "algorithm", "ms (4)", "ms (32)", "K/it (4)", "K/it (32)"];
+    let counted = ["paper", "intervals a ray", "gradients", "points"];
+    println!("| {} | {} |", titles.join(" | "), counted.join(" | "));
+    println!("|{}", "---|".repeat(titles.len() + counted.len()));
     let algorithms = [Algorithm::Kmarch, Algorithm::Tbisect, Algorithm::Mitchell];
     for (id, fps) in published {
         let scene = scene(id)?;
         for (depth, fps) in [10, 22].into_iter().zip(fps) {
-            let methods = algorithms.map(|algorithm| paper(algorithm, depth));
-            let frames = frames(&methods, &scene, size, Request::First)?;
-            for ((method, frame), published) in methods.iter().zip(&frames).zip(fps) {
-                let [intervals, gradients, points] = frame.evaluations();
+            let in_packets = |packets| {
+                let methods = algorithms.map(|a| Bisection { packets, ..paper(a, depth) });
+                frames(&methods, &scene, size, Request::First)
+            };
+            let four = in_packets(Packets::One(Register::Four))?;
+            let wide = in_packets(Packets::Two)?;
+            for (i, algorithm) in algorithms.into_iter().enumerate() {
+                let [intervals, gradients, points] = wide[i].evaluations();
+                let (ms, wide_ms) = (four[i].ms, wide[i].ms);
+                let ratios = [ms / four[0].ms, wide_ms / wide[0].ms, fps[0] / fps[i]];
+                let [ratio, wide_ratio, printed] = ratios.map(|ratio| format!("{ratio:.2}"));
                 println!(
-                    "| {id} | {depth} | `{}` | {:.1} | {intervals:.1} | {gradients:.1} | {points:.1} | {:.2} | {:.2} |",
-                    method.id(),
-                    frame.ms,
-                    frame.ms / frames[0].ms,
-                    fps[0] / published,
+                    "| {id} | {depth} | `{}` | {ms:.1} | {wide_ms:.1} | {ratio} | {wide_ratio} | \
+                     {printed} | {intervals:.1} | {gradients:.1} | {points:.1} |",
+                    Bisection::new(algorithm).id(),
                 );
             }
         }

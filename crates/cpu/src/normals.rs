@@ -58,6 +58,7 @@ pub(crate) fn fill(tape: &Tape, normals: Normals, rays: Rays<'_>, hits: &mut Hit
             let mut gradient = Gradient::new(tape, normals);
             for (i, (vector, work)) in vectors.iter_mut().zip(work).enumerate() {
                 let index = 1024 * chunk + i;
+                *vector = Vec3::ZERO;
                 if !certificate[index].is_hit() {
                     continue;
                 }

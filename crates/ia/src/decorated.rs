@@ -3,7 +3,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::range::{self, Domain};
-use crate::{Binary, Constant, Interval, Number, Raw, Scalar, Set, Unary};
+use crate::{Binary, Constant, Interval, Number, Scalar, Set, Unary};
 
 /// What holds of a function on a box (IEEE 1788-2015, chapter 11); the later implies the earlier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -23,7 +23,7 @@ pub enum Decoration {
 ///
 /// Sums and products of numbers that are not negative are cut at 0, so that `sqrt(x^2 + y^2)` stays
 /// defined where rounding down would give a tiny negative number. Integer powers are as wide as those
-/// of [`Raw`], so that what holds of a box here holds there.
+/// of [`Raw`](crate::Raw), so that what holds of a box here holds there.
 #[derive(Clone, Copy, Debug)]
 pub struct Decorated<S> {
     /// The range over the part of the box where the function is defined.
@@ -191,10 +191,9 @@ impl<S: Scalar> Number for Decorated<S> {
         let side = if n % 2 == 0 { Side::NotNegative } else { self.side() };
         let defined = n >= 0 || !self.interval.contains_zero();
         let mut power = self.interval.powi(n);
-        if defined && !power.is_empty() {
-            let [lo, hi] =
-                Interval::<S, Raw>::new(self.interval.lo, self.interval.hi).powi(n).bounds();
-            power = power.hull(Interval::new(lo, hi));
+        if n.unsigned_abs() > 2 || n == -2 {
+            // Raw intervals multiply, and their range has to be in this one.
+            power = power.hull(self.interval.multiplied(n));
         }
         self.composed(side.cut(power), continuous_if(defined, Decoration::Trivial))
     }

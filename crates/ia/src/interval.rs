@@ -124,6 +124,13 @@ impl<R: Real, F: Flavor> Interval<R, F> {
         Self::new(lo, hi)
     }
 
+    /// `self^n` for `|n| >= 2` by products, as raw intervals have it.
+    #[inline(always)]
+    pub(crate) fn multiplied(self, n: i32) -> Self {
+        let power = self.products(n.unsigned_abs());
+        if n < 0 { Self::point(self.lo.splat(R::Scalar::from_f64(1.0))) / power } else { power }
+    }
+
     /// Restores NaN at both ends where an operand was empty (min and max drop NaN).
     #[inline(always)]
     fn empty_where(self, x: Self) -> Self {
@@ -311,8 +318,7 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
             2 => self.sqr(),
             -1 => one / self,
             _ if F::SET => self.map(|x| range::integer_power(x, n)),
-            3.. => self.products(n.unsigned_abs()),
-            _ => one / self.products(n.unsigned_abs()),
+            _ => self.multiplied(n),
         }
     }
 

@@ -26,14 +26,17 @@ pub(super) enum Numbers {
 
 /// Single precision is used for numbers up to here.
 const LARGEST_SINGLE: f64 = f64::from_bits((1023 + 100) << 52);
-/// 2^900: coordinates are at most as large, so that nothing overflows on the way to a piece.
-const LARGEST: f64 = f64::from_bits((1023 + 900) << 52);
+/// Double precision is used for sub-values up to here.
+const LARGEST_DOUBLE: f64 = f64::from_bits((1023 + 900) << 52);
+/// 2^800: coordinates are at most as large. Divided by the least component of a direction, 2^-149, they do
+/// not overflow on the way to a piece.
+const FARTHEST: f64 = f64::from_bits((1023 + 800) << 52);
 
 impl Form {
     /// The root-box check: one evaluation over the whole domain, of each tape.
     ///
     /// # Errors
-    /// If the domain reaches beyond 2^900.
+    /// If the domain reaches beyond 2^800.
     pub(super) fn of(
         method: &Bisection,
         tape: &Tape,
@@ -41,9 +44,9 @@ impl Form {
         domain: &Domain,
     ) -> Result<Self, Error> {
         let reach = domain.min.abs().max(domain.max.abs()).max_element();
-        if reach > LARGEST {
+        if reach > FARTHEST {
             return Err(Error::Domain(format!(
-                "the domain reaches to {reach:e}; interval bisection takes domains within 2^900 of \
+                "the domain reaches to {reach:e}; interval bisection takes domains within 2^800 of \
                  the origin"
             )));
         }
@@ -53,7 +56,7 @@ impl Form {
         } else if is_bounded::<f32>(tape, &single, LARGEST_SINGLE) {
             let raw = slope.is_none_or(|slope| is_bounded::<f32>(slope, &single, LARGEST_SINGLE));
             if raw { Numbers::Raw } else { Numbers::Set }
-        } else if is_bounded::<f64>(tape, &double, LARGEST) {
+        } else if is_bounded::<f64>(tape, &double, LARGEST_DOUBLE) {
             Numbers::Double
         } else {
             Numbers::Set

@@ -158,14 +158,15 @@ impl Clock {
         Self { start, pace, whole }
     }
 
-    /// A q at most that of `t`: the largest number if t is infinite, the least where it overflows. Four
-    /// roundings, of terms at most twice `(|t| + |start|) / pace`: less than 8 units of 2^-53.
+    /// A q at most that of `t`: the largest number if t is infinite, the least where it overflows. `start`
+    /// has three roundings, its quotient by the pace two; the difference, the product and the end one
+    /// each: of terms at most `(|t| + |start|) / pace`, less than 16 units of 2^-53.
     pub(super) fn q(&self, t: f64) -> f64 {
         if t == f64::INFINITY {
             return f64::MAX;
         }
         let inverse = 1.0 / self.pace;
-        let error = UNITS_8 * ((t.abs() + self.start.abs()) * inverse) + TINY;
+        let error = 2.0 * UNITS_8 * ((t.abs() + self.start.abs()) * inverse) + TINY;
         let q = (t - self.start) * inverse - error;
         if q.is_nan() { f64::MIN } else { q }
     }
@@ -374,9 +375,11 @@ impl<R: Packet, C: Cutting> Lattice<R, C> {
         let first = if !C::SLABS {
             self.coordinate(q, 0)
         } else if self.forward {
-            [self.start.add_down(q), self.start.add_up(q)]
+            let down = self.start.add_down(q);
+            [down, if R::OUTWARD { self.start.add_up(q) } else { down }]
         } else {
-            [self.start.sub_down(q), self.start.sub_up(q)]
+            let down = self.start.sub_down(q);
+            [down, if R::OUTWARD { self.start.sub_up(q) } else { down }]
         };
         Boundary { q, ends: [first, self.coordinate(q, 1), self.coordinate(q, 2)] }
     }
@@ -384,7 +387,9 @@ impl<R: Packet, C: Cutting> Lattice<R, C> {
     #[inline(always)]
     fn coordinate(&self, q: R, place: usize) -> [R; 2] {
         let ([lo, hi], [down, up]) = (self.origin[place], self.slope[place]);
-        [lo.add_down(q.mul_down(down)), hi.add_up(q.mul_up(up))]
+        let low = lo.add_down(q.mul_down(down));
+        // Rounded to nearest, both ends are the same.
+        [low, if R::OUTWARD { hi.add_up(q.mul_up(up)) } else { low }]
     }
 
     /// Lets the rays of a mask start at `q`, rounded down.
@@ -613,13 +618,14 @@ mod tests {
         let ray = Ray::new(Vec3::ZERO, Vec3::new(1e-45, 0.0, 0.0));
         let range = [1e300, f64::MAX];
         let marcher = Marcher { ray: 0, line: ray, range, depth: 0 };
-        let unit = Domain::new(DVec3::ZERO, DVec3::ONE).expect("a box");
-        let clock = Clock::new(&marcher, Cut::Slabs(axis), &Bounds::new::<f64>(&unit));
-        assert_eq!(clock.q(f64::INFINITY), f64::MAX);
-        let clock = Clock::new(&marcher, Cut::Rays, &Bounds::new::<f64>(&unit));
-        assert_eq!(clock.q(f64::INFINITY), f64::MAX);
-        assert!(clock.q(1.0) == f64::MIN || clock.q(1.0) == f64::NEG_INFINITY);
-        let [lo, hi] = clock.range([0.0, 1.0]);
-        assert!(!(lo > 0.0 && hi < f64::INFINITY));
+        let far = Domain::new(DVec3::splat(1e300), DVec3::splat(2e300)).expect("a box");
+        let bounds = Bounds::new::<f64>(&far);
+        for cut in [Cut::Slabs(axis), Cut::Rays] {
+            let clock = Clock::new(&marcher, cut, &bounds);
+            assert_eq!(clock.q(f64::INFINITY), f64::MAX);
+            assert!(clock.q(1.0) < 0.0);
+            let [lo, hi] = clock.range([0.0, 1e300]);
+            assert!(!(lo > 1e300 && hi < f64::INFINITY), "{cut:?}: {lo} {hi}");
+        }
     }
 }

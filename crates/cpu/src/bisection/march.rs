@@ -14,6 +14,10 @@ pub(super) const FIRST: u32 = 2;
 /// Finest piece: 2^-40 of the whole.
 pub(super) const MAX_DEPTH: u32 = 40;
 
+/// A ray on which more pieces than this were dropped ends there, without an answer: in a pole, every
+/// piece is.
+const MOST_DROPPED: f64 = 4096.0;
+
 /// A ray of a march.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Marcher {
@@ -183,6 +187,7 @@ fn march<R: Packet, F: Flavor, C: Cutting>(
     }
     let mut alive = if packet.len() == 64 { u64::MAX } else { (1 << packet.len()) - 1 };
     let mut dropped = 0_u64;
+    let (mut drops, most) = (zero, zero.splat(R::Scalar::from_f64(MOST_DROPPED)));
     let mut evaluations = zero;
     // The rays that descended to each depth, and the piece's index there.
     let mut descended = [0_u64; MAX_DEPTH as usize + 1];
@@ -210,9 +215,14 @@ fn march<R: Packet, F: Flavor, C: Cutting>(
                 unbounded = vanishing & !(value.hi - value.lo).lt(infinity);
                 if poles == Poles::Hidden {
                     // The infinite-interval rule of Section 5.4.
-                    dropped |= unbounded & small;
-                    vanishing &= !(unbounded & small);
+                    let poles = unbounded & small;
+                    dropped |= poles;
+                    vanishing &= !poles;
                     small &= !unbounded;
+                    if poles != 0 {
+                        drops = drops + zero.select(poles, one, zero);
+                        alive &= !most.lt(drops);
+                    }
                 }
             }
             if test.is_on() {

@@ -50,7 +50,8 @@ pub enum Poles {
     Shown,
 }
 
-/// How many rays are traversed together. Answers do not depend on it.
+/// How many rays are traversed together. Answers do not depend on it, except where 16 or 32 round
+/// outward in hardware and 4 or 8 by steps: those are wider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packets {
     /// One register of the instruction set that has registers of that size, whatever `isa` says: 4 (2x2

@@ -165,7 +165,7 @@ impl Prepared {
             Cut::Slabs(axis) => bounds.finest(axis.k),
             Cut::Rays => bisections(length, bounds.resolution()),
         };
-        (stop + levels).min(finest).min(MAX_DEPTH).max(least)
+        stop.saturating_add(levels).min(finest).min(MAX_DEPTH).max(least)
     }
 }
 

@@ -28,6 +28,41 @@ fn poles_are_hits_if_they_are_shown() {
 }
 
 #[test]
+fn a_ray_within_a_pole_ends() {
+    let scene = scene("y/x-1", 1.0);
+    let within = ray([0.0, -2.0, 0.0], [0.0, 1.0, 0.0]);
+    for algorithm in ALGORITHMS {
+        let (stop, arithmetic) = (Stop::Width(1e-11), Arithmetic::Double);
+        let method = Bisection { stop, arithmetic, ..Bisection::new(algorithm) };
+        let hit = answers(&method, &scene, &[within])[0];
+        assert_eq!(hit.certificate, Certificate::MISS, "{algorithm:?} {hit:?}");
+        assert!(hit.work.intervals < 20_000, "{algorithm:?} {hit:?}");
+    }
+}
+
+#[test]
+fn domains_beyond_what_t_can_tell_are_refused() {
+    // The root x = 1 is at t = 2^149, the domain's end beyond all numbers.
+    let domain = |far: i32| {
+        let (min, max) = (glam::DVec3::NEG_ONE, glam::DVec3::new(2.0_f64.powi(far), 1.0, 1.0));
+        zeroset_raycast::Domain::new(min, max).unwrap()
+    };
+    let least = ray([0.0; 3], [1e-45, 0.0, 0.0]);
+    for algorithm in ALGORITHMS {
+        let method = Bisection::new(algorithm);
+        let mut scene = scene("x-1", 1.0);
+        scene.domain = domain(890);
+        let refused = method.prepare(&scene).err().expect("it is refused").to_string();
+        assert!(refused.contains("2^800"), "{refused}");
+        scene.domain = domain(799);
+        let hit = answers(&method, &scene, &[least])[0];
+        let root = 2.0_f64.powi(149);
+        assert!(hit.certificate.is_hit(), "{algorithm:?} {hit:?}");
+        assert!(hit.bracket[0] <= root && root <= hit.bracket[1], "{algorithm:?} {hit:?}");
+    }
+}
+
+#[test]
 fn a_range_tolerance_ends_the_bisection_early() {
     let scene = scene("x^2+y^2+z^2-1", 1.25);
     let rays = assorted(&scene, 16);
