@@ -15,7 +15,7 @@ use fidget_core::types::Interval as FidgetInterval;
 use fidget_core::var::Var;
 use fidget_jit::JitFunction;
 use zeroset_expr::{Op, Parameters, Tape};
-use zeroset_ia::{Interval, Isa, Kernel, Packet, Pair, Raw, Rounding, Scalar, dispatch};
+use zeroset_ia::{Interval, Isa, Kernel, Packet, Pair, Raw, Real, Rounding, Scalar, dispatch};
 use zeroset_raycast::Geometry;
 use zeroset_raycast::catalogue::Catalogue;
 
@@ -71,8 +71,9 @@ impl Kernel for OnLanes<'_> {
     type Output = Duration;
     #[inline(always)]
     fn run<R: Packet>(self, zero: R) -> Duration {
-        let zero = Pair(zero, zero);
-        let lanes = Pair::<R>::LANES;
+        // Four vectors at a time: the more, the less the interpretation of the tape counts.
+        let zero = Pair(Pair(zero, zero), Pair(zero, zero));
+        let lanes = Pair::<Pair<R>>::LANES;
         let side = zero.splat(R::Scalar::from_f64(SIDE.into()));
         let mut boxes = Vec::new();
         for first in (0..BOXES).step_by(lanes) {
