@@ -10,6 +10,9 @@ use zeroset_cpu::Bisection;
 use zeroset_raycast::catalogue::Catalogue;
 use zeroset_raycast::{Camera, Certificate, Hits, Method, Progress, Rays, Request, Scene, View};
 
+/// Pixels along a side where brackets are far narrower than single precision resolves.
+const FINE_SIZE: usize = 16;
+
 /// Pixels along a side: few, for 71 surfaces in debug builds; `compare` judges whole images.
 const SIZE: usize = 48;
 
@@ -94,4 +97,33 @@ fn certificates_are_true_and_useful() {
         }
     }
     assert!(useful.len() >= 16, "only {} surfaces are mostly proven: {useful:?}", useful.len());
+}
+
+/// Brackets of 1e-12 of the side: there a march leaves nearly all to its finish.
+#[test]
+fn fine_certificates_are_true() {
+    for surface in Catalogue::builtin().iter() {
+        let scene = surface.scene().expect("the catalogue is well formed");
+        let view = View::new(Camera::facing(&scene.domain), FINE_SIZE, FINE_SIZE);
+        let rays = Rays::View(&view);
+        let progress = Progress::new();
+        let sample = Sample::every(if scene.id == "chmutov-50" { 8 } else { 1 }, rays);
+        let oracle = truth::reference(&scene).expect("every surface is a function");
+        let truths = oracle.classify(rays, &sample.indices, &progress).expect("truths");
+        let truths = Truths { sample, truths };
+        for mut method in [Bisection::kmarch(), Bisection::tbisect(), Bisection::mitchell()] {
+            method.for_precision(1e-12 * scene.domain.longest_side(), &scene);
+            let intersector = method.prepare(&scene).expect("every surface is a function");
+            let mut hits = Hits::new(Request::First, rays.len());
+            intersector.intersect(rays, &mut hits, &progress).expect("answers");
+            let judgement = judge(rays, &hits, &truths, Tolerance::Footprint);
+            assert!(
+                judgement.lies.is_empty(),
+                "{} {}: {:?}",
+                scene.id,
+                method.id(),
+                judgement.lies
+            );
+        }
+    }
 }
