@@ -105,6 +105,30 @@ fn jumps_are_never_proven_roots() {
     assert!(hit.bracket[0] <= 2.25 && 2.25 <= hit.bracket[1], "{hit:?}");
 }
 
+/// The slope does not see a jump, within which signs change, or change back.
+#[test]
+fn monotone_pieces_with_jumps_prove_nothing() {
+    let accepting = Bisection { finish: Finishing::Accept, ..Bisection::mitchell() };
+    let equations = ["floor(3*x)+x/8-0.4", "sign(x-0.1)+x/8", "ceil(2*x)-x/8-0.5", "mod(3*x,1)-5"];
+    for equation in equations {
+        for start in [-3.0, -2.9, -1.7] {
+            let along = ray([start, 0.13, 0.21], [1.0, 0.0, 0.0]);
+            let hit = answers(&accepting, &scene(equation, 1.0), &[along])[0];
+            assert!(!hit.certificate.contains(Certificate::ROOT), "{equation}: {hit:?}");
+        }
+    }
+    // A root shortly before a jump behind which the sign is the old one.
+    for (place, jump) in [(0.45, 0.5), (0.49, 0.5), (-0.06, 0.0), (-0.51, -0.5)] {
+        let equation = format!("x-({place})-0.3*(floor(2*x)-2*({jump})+1)");
+        let along = ray([-3.0, 0.13, 0.21], [1.0, 0.0, 0.0]);
+        let hit = answers(&accepting, &scene(&equation, 1.0), &[along])[0];
+        let root = 3.0 + place;
+        let told = hit.certificate.contains(Certificate::FIRST);
+        assert!(hit.certificate.is_hit(), "{equation}: {hit:?}");
+        assert!(!told || hit.bracket[0] <= root, "{equation}: {hit:?}, the root is at {root}");
+    }
+}
+
 #[test]
 fn a_gap_in_the_domain_of_a_function_is_no_root() {
     // Defined for |x| >= 1/2 only, negative on the left and positive on the right.
