@@ -3,8 +3,9 @@
 use zeroset_ia::Rounding;
 use zeroset_raycast::{Certificate, Domain, Hit, Work};
 
+use super::clock::Clock;
+use super::cut::{Bounds, Cut};
 use super::finish::{self, Finding, Finish};
-use super::lattice::{Bounds, Clock, Cut};
 use super::march::{Judge, Marcher, Reason, Verdict};
 use super::method::{Bisection, Finishing, Stop};
 use super::prepared::Goal;

@@ -4,7 +4,7 @@ use zeroset_expr::Tape;
 use zeroset_ia::{Decorated, Decoration, Interval, Scalar};
 use zeroset_raycast::{Domain, Error};
 
-use super::lattice::Bounds;
+use super::cut::Bounds;
 use super::method::{Arithmetic, Bisection};
 
 /// The numbers of a march, and the domain's box in them.

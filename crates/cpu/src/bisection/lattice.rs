@@ -13,179 +13,11 @@ use std::marker::PhantomData;
 
 use zeroset_expr::Evaluator;
 use zeroset_ia::interval::Flavor;
-use zeroset_ia::{Interval, Packet, Plain, Real, Scalar, Set};
-use zeroset_raycast::{Domain, Ray};
+use zeroset_ia::{Interval, Packet, Plain, Real, Scalar};
 
+use super::clock::{TINY, UNITS_8};
+use super::cut::{Axis, Bounds, Cut, Cutting};
 use super::march::Marcher;
-
-/// What the rays of a packet have in common.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Cut {
-    /// Slabs of the domain's box along a common axis.
-    Slabs(Axis),
-    /// Each ray's own part in the domain.
-    Rays,
-}
-
-/// A [`Cut`] known when code is compiled, so that the loop over pieces has no branch for it.
-pub(super) trait Cutting: Copy {
-    /// Are the pieces slabs?
-    const SLABS: bool;
-}
-
-/// [`Cut::Slabs`].
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Slabs;
-
-/// [`Cut::Rays`].
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rays;
-
-impl Cutting for Slabs {
-    const SLABS: bool = true;
-}
-impl Cutting for Rays {
-    const SLABS: bool = false;
-}
-
-/// A common axis and direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct Axis {
-    /// K: 0, 1 or 2.
-    pub k: usize,
-    /// Does K increase along the rays?
-    pub forward: bool,
-}
-
-impl Axis {
-    pub(super) const COUNT: usize = 6;
-
-    /// The dominant axis of a direction and its sign.
-    #[inline(always)]
-    pub(super) fn of(ray: Ray) -> Self {
-        let d = ray.direction.abs();
-        let k = if d.x >= d.y && d.x >= d.z {
-            0
-        } else if d.y >= d.z {
-            1
-        } else {
-            2
-        };
-        Self { k, forward: ray.direction[k] > 0.0 }
-    }
-
-    /// K, and U and V in cyclic order.
-    pub(super) fn all(self) -> [usize; 3] {
-        [self.k, (self.k + 1) % 3, (self.k + 2) % 3]
-    }
-}
-
-/// The domain's box, rounded outward to what a march's scalar type can represent.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
-    ends: [[f64; 2]; 3],
-    /// Depths at which slabs are about as thin as coordinates are rounded, by axis.
-    finest: [u32; 3],
-    /// How finely coordinates are rounded, at most.
-    resolution: f64,
-}
-
-impl Bounds {
-    pub(super) fn new<S: Scalar>(domain: &Domain) -> Self {
-        let ends = [0, 1, 2]
-            .map(|axis| S::enclose_range(domain.min[axis], domain.max[axis]).map(S::to_f64));
-        let largest = ends.iter().flatten().map(|x| x.abs()).fold(0.0, f64::max);
-        let epsilon = if size_of::<S>() == 4 { f64::from(f32::EPSILON) } else { f64::EPSILON };
-        let resolution = 4.0 * epsilon * largest;
-        let finest = ends.map(|[lo, hi]| ((hi - lo) / resolution).log2() as u32);
-        Self { ends, finest, resolution }
-    }
-
-    /// The box.
-    pub(super) fn ranges<S: Scalar>(&self) -> [[S; 2]; 3] {
-        self.ends.map(|ends| ends.map(S::from_f64))
-    }
-
-    /// Where a march along an axis starts.
-    pub(super) fn start(&self, axis: Axis) -> f64 {
-        self.ends[axis.k][if axis.forward { 0 } else { 1 }]
-    }
-
-    /// The depth beyond which slabs gain nothing.
-    pub(super) fn finest(&self, k: usize) -> u32 {
-        self.finest[k]
-    }
-
-    /// The width below which pieces gain nothing.
-    pub(super) fn resolution(&self) -> f64 {
-        self.resolution
-    }
-
-    /// How far it goes.
-    pub(super) fn length(&self, axis: Axis) -> f64 {
-        let [lo, hi] = self.ends[axis.k];
-        (Interval::<_, Set>::point(hi) - Interval::point(lo)).hi
-    }
-}
-
-/// The ray parameter along the pieces: `t = start + q pace`, in double precision.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Clock {
-    start: f64,
-    /// t a unit of q.
-    pace: f64,
-    /// How far all pieces go in t.
-    pub whole: f64,
-}
-
-impl Clock {
-    /// The clock of a ray. What is cut by rays starts where the range of t does.
-    pub(super) fn new(marcher: &Marcher, cut: Cut, bounds: &Bounds) -> Self {
-        let Marcher { line, range, .. } = marcher;
-        let k = match cut {
-            Cut::Slabs(axis) => axis.k,
-            Cut::Rays => Axis::of(*line).k,
-        };
-        let inverse = 1.0 / f64::from(line.direction[k]);
-        let pace = inverse.abs();
-        let (start, whole) = match cut {
-            Cut::Slabs(axis) => {
-                let start = (bounds.start(axis) - f64::from(line.origin[k])) * inverse;
-                (start, bounds.length(axis) * pace)
-            }
-            Cut::Rays => (range[0], range[1] - range[0]),
-        };
-        Self { start, pace, whole }
-    }
-
-    /// A q at most that of `t`: the largest number if t is infinite, the least where it overflows. `start`
-    /// has three roundings, its quotient by the pace two; the difference, the product and the end one
-    /// each: of terms at most `(|t| + |start|) / pace`, less than 16 units of 2^-53.
-    pub(super) fn q(&self, t: f64) -> f64 {
-        if t == f64::INFINITY {
-            return f64::MAX;
-        }
-        let inverse = 1.0 / self.pace;
-        let error = 2.0 * UNITS_8 * ((t.abs() + self.start.abs()) * inverse) + TINY;
-        let q = (t - self.start) * inverse - error;
-        if q.is_nan() { f64::MIN } else { q }
-    }
-
-    /// The range of t between two boundaries, rounded outward; NaN where it overflows. `start` has
-    /// three roundings, `q pace` two, the sum one and the end another: less than 8 units of 2^-53.
-    pub(super) fn range(&self, [from, to]: [f64; 2]) -> [f64; 2] {
-        let at = |q: f64| {
-            let error = UNITS_8 * (self.start.abs() + q * self.pace) + TINY;
-            [self.start + q * self.pace - error, self.start + q * self.pace + error]
-        };
-        [at(from)[0], at(to)[1]]
-    }
-}
-
-/// 8 units of 2^-53, the largest relative error of a rounding in double precision.
-const UNITS_8: f64 = 4.0 * f64::EPSILON;
-/// More than the errors of all products that underflow.
-const TINY: f64 = f64::from_bits(123 << 52);
 
 /// The two ends of `x` with an error up to `e`, as numbers of the scalar type; for a nearest type,
 /// `x` twice. What is unknown is unbounded.
@@ -486,7 +318,10 @@ mod tests {
     use num_rational::BigRational;
     use num_traits::Signed;
     use proptest::prelude::*;
+    use zeroset_raycast::{Domain, Ray};
 
+    use super::super::clock::Clock;
+    use super::super::cut::{Rays, Slabs};
     use super::*;
 
     type Q = BigRational;

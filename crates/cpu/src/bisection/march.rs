@@ -5,9 +5,10 @@ use zeroset_ia::interval::Flavor;
 use zeroset_ia::{Interval, Kernel, Packet, Pair, Raw, Scalar, Set};
 use zeroset_raycast::{Ray, Work};
 
-use super::lattice::{Bounds, Cut, Cutting, Lattice, Rays, Slabs};
+use super::cut::{Bounds, Cut, Cutting, Rays, Slabs};
+use super::lattice::Lattice;
 use super::method::Poles;
-use super::monotone::{Monotone, NoTest, Refining, Test, evaluate};
+use super::monotone::{Monotone, NoTest, Piece, Refining, Test, evaluate};
 
 /// The march starts with four pieces: where it starts with one, nearly all are bisected twice.
 pub(super) const FIRST: u32 = 2;
@@ -215,21 +216,20 @@ fn march<R: Packet, F: Flavor, C: Cutting>(
                 unbounded = vanishing & !(value.hi - value.lo).lt(infinity);
                 if poles == Poles::Hidden {
                     // The infinite-interval rule of Section 5.4.
-                    let poles = unbounded & small;
-                    dropped |= poles;
-                    vanishing &= !poles;
+                    let hidden = unbounded & small;
+                    dropped |= hidden;
+                    vanishing &= !hidden;
                     small &= !unbounded;
-                    if poles != 0 {
-                        drops = drops + zero.select(poles, one, zero);
+                    if hidden != 0 {
+                        drops = drops + zero.select(hidden, one, zero);
                         alive &= !most.lt(drops);
                     }
                 }
             }
             if test.is_on() {
-                let bounded = vanishing & !unbounded;
                 // Copies, so that the originals need not be in memory.
-                let (at, ends) = (lattice, [near, far]);
-                let found = test.examine(&at, &ends, bounded, depth, packet);
+                let (mask, ends) = (vanishing & !unbounded, [near, far]);
+                let found = test.examine(&Piece { lattice, ends, mask, depth, packet });
                 vanishing &= !found.empty;
                 small &= vanishing & !found.crossing;
                 let mut crossing = found.crossing;

@@ -10,10 +10,12 @@
 //! | [`Tbisect`](Algorithm::Tbisect) | parts of each ray's own range of t | they are small |
 //! | [`Mitchell`](Algorithm::Mitchell) | the same | F is monotone there: then without intervals |
 //!
-//! `lattice` has the geometry, `march` the traversal, `monotone` Mitchell's test, `finish` the proofs.
+//! `cut`, `clock` and `lattice` have the geometry, `march` the traversal, `monotone` Mitchell's test, `finish` the proofs.
 //! Departures from the paper are listed in `docs/deviations.md`.
 
 mod answers;
+mod clock;
+mod cut;
 mod finish;
 mod form;
 mod lattice;

@@ -8,7 +8,8 @@ use zeroset_ia::interval::Flavor;
 use zeroset_ia::{Interval, Packet, Plain, Scalar};
 use zeroset_raycast::Work;
 
-use super::lattice::{Boundary, Lattice, Rays};
+use super::cut::Rays;
+use super::lattice::{Boundary, Lattice};
 use super::march::{MAX_DEPTH, Marcher};
 
 /// What happens to a piece on which the function is monotone and changes its sign.
@@ -20,22 +21,24 @@ pub(super) enum Refining {
     Later,
 }
 
+/// The pieces of a packet's rays between two boundaries.
+pub(super) struct Piece<'a, R: Packet, C> {
+    pub lattice: Lattice<R, C>,
+    pub ends: [Boundary<R>; 2],
+    /// The lanes in which the function may vanish and is bounded.
+    pub mask: u64,
+    pub depth: u32,
+    pub packet: &'a [Marcher],
+}
+
 /// A test of pieces in which the function may vanish, before they are bisected.
 pub(super) trait Test<R: Packet, C> {
     /// Is there a test?
     fn is_on(&self) -> bool;
     /// Counts work from 0, for the next packet.
     fn restart(&mut self, zero: R);
-    /// Looks at the piece between two boundaries in the lanes of a mask, in which the function may
-    /// vanish and is bounded.
-    fn examine(
-        &mut self,
-        lattice: &Lattice<R, C>,
-        ends: &[Boundary<R>; 2],
-        mask: u64,
-        depth: u32,
-        packet: &[Marcher],
-    ) -> Found<R>;
+    /// Looks at the piece.
+    fn examine(&mut self, piece: &Piece<'_, R, C>) -> Found<R>;
     /// The work of a lane since the last restart.
     fn work(&self, lane: usize) -> Work;
 }
@@ -51,15 +54,8 @@ impl<R: Packet, C> Test<R, C> for NoTest {
     #[inline(always)]
     fn restart(&mut self, _: R) {}
     #[inline(always)]
-    fn examine(
-        &mut self,
-        _: &Lattice<R, C>,
-        ends: &[Boundary<R>; 2],
-        _: u64,
-        _: u32,
-        _: &[Marcher],
-    ) -> Found<R> {
-        Found { empty: 0, crossing: 0, proven: 0, piece: [ends[0].q, ends[1].q] }
+    fn examine(&mut self, piece: &Piece<'_, R, C>) -> Found<R> {
+        Found::nothing(piece)
     }
     #[inline(always)]
     fn work(&self, _: usize) -> Work {
@@ -78,17 +74,14 @@ impl<R: Packet, F: Flavor> Test<R, Rays> for Option<Monotone<'_, R, F>> {
             monotone.count = Count { intervals: zero, slopes: zero, points: zero };
         }
     }
-    #[inline(always)]
-    fn examine(
-        &mut self,
-        lattice: &Lattice<R, Rays>,
-        ends: &[Boundary<R>; 2],
-        mask: u64,
-        depth: u32,
-        packet: &[Marcher],
-    ) -> Found<R> {
+    /// Out of line: most marches never come here.
+    #[inline(never)]
+    fn examine(&mut self, piece: &Piece<'_, R, Rays>) -> Found<R> {
         let monotone = self.as_mut().expect("the test is on");
-        monotone.examine(lattice, ends, mask, depth, packet)
+        piece.lattice.zero().region(
+            #[inline(always)]
+            || monotone.examine(piece),
+        )
     }
     #[inline(always)]
     fn work(&self, lane: usize) -> Work {
@@ -127,6 +120,15 @@ pub(super) struct Found<R> {
     pub piece: [R; 2],
 }
 
+impl<R: Packet> Found<R> {
+    /// Nothing was found about a piece.
+    #[inline(always)]
+    fn nothing<C>(piece: &Piece<'_, R, C>) -> Self {
+        let [near, far] = &piece.ends;
+        Self { empty: 0, crossing: 0, proven: 0, piece: [near.q, far.q] }
+    }
+}
+
 /// Signs by lanes; neither where they are unknown.
 #[derive(Clone, Copy)]
 struct Signs {
@@ -148,45 +150,20 @@ impl<'a, R: Packet, F: Flavor> Monotone<'a, R, F> {
         }
     }
 
-    /// Out of line: most marches never come here.
-    #[inline(never)]
-    fn examine(
-        &mut self,
-        lattice: &Lattice<R, Rays>,
-        ends: &[Boundary<R>; 2],
-        mask: u64,
-        depth: u32,
-        packet: &[Marcher],
-    ) -> Found<R> {
-        lattice.zero().region(
-            #[inline(always)]
-            || self.examine_inline(lattice, ends, mask, depth, packet),
-        )
-    }
-
     #[inline(always)]
-    fn examine_inline(
-        &mut self,
-        lattice: &Lattice<R, Rays>,
-        ends: &[Boundary<R>; 2],
-        mask: u64,
-        depth: u32,
-        packet: &[Marcher],
-    ) -> Found<R> {
-        let zero = lattice.zero();
-        let [near, far] = ends;
-        let piece = [near.q, far.q];
-        let none = Found { empty: 0, crossing: 0, proven: 0, piece };
+    fn examine(&mut self, piece: &Piece<'_, R, Rays>) -> Found<R> {
+        let &Piece { ref lattice, ends: [ref near, ref far], mask, .. } = piece;
         if mask == 0 {
-            return none;
+            return Found::nothing(piece);
         }
+        let zero = lattice.zero();
         lattice.bind(&mut self.slopes, near, far);
         lattice.bind_direction(&mut self.slopes);
         let slope = evaluate(&mut self.slopes, zero);
         add(&mut self.count.slopes, mask);
         let monotone = mask & (zero.lt(slope.lo) | slope.hi.lt(zero));
         if monotone == 0 {
-            return none;
+            return Found::nothing(piece);
         }
         let (a, b) = (self.signs(lattice, near, monotone), self.signs(lattice, far, monotone));
         let mut empty = monotone & (a.negative & b.negative | a.positive & b.positive);
@@ -197,9 +174,9 @@ impl<'a, R: Packet, F: Flavor> Monotone<'a, R, F> {
         }
         let mut proven = if R::OUTWARD && self.is_continuous { crossing } else { 0 };
         if self.refining == Refining::Later || crossing == 0 {
-            return Found { empty, crossing, proven, piece };
+            return Found { empty, crossing, proven, ..Found::nothing(piece) };
         }
-        let piece = self.bisect(lattice, piece, a.negative, crossing, depth, packet);
+        let piece = self.bisect(piece, a.negative, crossing);
         if proven != 0 {
             let [a, b] = [lattice.at(piece[0]), lattice.at(piece[1])];
             let (a, b) = (self.signs(lattice, &a, proven), self.signs(lattice, &b, proven));
@@ -210,15 +187,9 @@ impl<'a, R: Packet, F: Flavor> Monotone<'a, R, F> {
 
     /// Bisects with values at points, in each lane as often as slabs would still have been.
     #[inline(always)]
-    fn bisect(
-        &mut self,
-        lattice: &Lattice<R, Rays>,
-        [mut lo, mut hi]: [R; 2],
-        negative: u64,
-        crossing: u64,
-        depth: u32,
-        packet: &[Marcher],
-    ) -> [R; 2] {
+    fn bisect(&mut self, piece: &Piece<'_, R, Rays>, negative: u64, crossing: u64) -> [R; 2] {
+        let &Piece { ref lattice, ref ends, depth, packet, .. } = piece;
+        let [mut lo, mut hi] = [ends[0].q, ends[1].q];
         let zero = lattice.zero();
         let half = zero.splat(R::Scalar::from_f64(0.5));
         let mut ending = [0_u64; MAX_DEPTH as usize + 1];

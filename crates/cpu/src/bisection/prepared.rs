@@ -7,8 +7,8 @@ use zeroset_raycast::{
 };
 
 use super::answers::Answers;
+use super::cut::{Axis, Cut};
 use super::form::{Form, Numbers};
-use super::lattice::{Axis, Cut};
 use super::march::{FIRST, MAX_DEPTH, March, Marcher, RawPairs, RawVectors, SetVectors};
 use super::method::{Algorithm, Bisection, Finishing, Packets, Stop};
 use super::monotone::Refining;
