@@ -7,6 +7,7 @@ mod animate;
 mod camera;
 mod compare;
 mod destination;
+mod devices;
 mod failure;
 mod frame;
 mod lighting;
@@ -51,6 +52,7 @@ enum Command {
     Render(Box<render::Render>),
     Compare(Box<compare::Compare>),
     Trace(Box<trace::Trace>),
+    Devices(devices::Devices),
 }
 
 fn main() -> ExitCode {
@@ -77,5 +79,6 @@ fn run(command_line: &CommandLine) -> Result<(), Failure> {
         Command::Render(render) => render.run(),
         Command::Compare(compare) => compare.run(),
         Command::Trace(trace) => trace.run(),
+        Command::Devices(devices) => devices.run(),
     }
 }

@@ -75,6 +75,10 @@ pub(crate) struct MethodOptions {
     #[arg(long = "set", value_name = "METHOD.KNOB=VALUE", value_parser = setting)]
     #[arg(allow_hyphen_values = true)]
     settings: Vec<Setting>,
+    /// Where methods on the GPU run: a number or a part of a name, as `zeroset devices` lists them
+    /// [default: the variable ZEROSET_DEVICE, else number 0]
+    #[arg(long, value_name = "DEVICE", value_parser = device)]
+    device: Option<String>,
 }
 
 /// A knob of a method with its value.
@@ -100,6 +104,11 @@ impl MethodOptions {
     ) -> Result<(), Failure> {
         for method in &mut *methods {
             method.for_precision(self.precision(scene), scene);
+            if let Some(device) = &self.device
+                && method.knobs().iter().any(|knob| knob.name == "device")
+            {
+                method.set("device", device).map_err(Failure::usage)?;
+            }
         }
         for Setting { method: id, knob, value } in &self.settings {
             match methods.iter_mut().find(|m| m.id() == id) {
@@ -153,6 +162,13 @@ fn domain(text: &str) -> Result<Domain, String> {
         Ok(DVec3::new(numbers::finite(x)?, numbers::finite(y)?, numbers::finite(z)?))
     };
     Domain::new(corner(x0, y0, z0)?, corner(x1, y1, z1)?).map_err(|e| e.to_string())
+}
+
+/// Reads the name of a device that there is.
+fn device(text: &str) -> Result<String, String> {
+    zeroset::gpu::device::find(&zeroset::gpu::Choice::read(text))
+        .map(|_| text.into())
+        .map_err(|e| e.to_string())
 }
 
 /// Reads `NAME=VALUE`.

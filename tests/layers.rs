@@ -5,11 +5,12 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The layers from the bottom up; crates of one layer do not know each other.
-const LAYERS: [&[&str]; 6] = [
+const LAYERS: [&[&str]; 7] = [
     &["zeroset-ia"],
     &["zeroset-expr"],
     &["zeroset-raycast"],
     &["zeroset-cpu", "zeroset-shade"],
+    &["zeroset-gpu"],
     &["zeroset-bench"],
     &["zeroset"],
 ];

@@ -11,6 +11,8 @@ pub fn methods() -> Vec<Box<dyn Method>> {
         Box::new(zeroset_cpu::Bisection::kmarch()),
         Box::new(zeroset_cpu::Bisection::tbisect()),
         Box::new(zeroset_cpu::Bisection::mitchell()),
+        Box::new(zeroset_gpu::AmpGpu::default()),
+        Box::new(zeroset_gpu::BisectionGpu::default()),
         Box::new(zeroset_cpu::Reference::default()),
     ]
 }

@@ -8,7 +8,7 @@ const PRECISION: usize = 128;
 
 /// A function with values for its parameters, and the domain in which its roots count.
 #[derive(Clone, Debug)]
-pub(crate) struct Implicit {
+pub struct Implicit {
     function: Function,
     /// The function with the values.
     pub tape: Tape,
@@ -18,17 +18,20 @@ pub(crate) struct Implicit {
 
 impl Implicit {
     /// The function of a scene, for the method of that id.
-    pub(crate) fn new(method: &str, scene: &Scene) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// If the scene has no function, or its parameters or domain are invalid.
+    pub fn new(method: &str, scene: &Scene) -> Result<Self, Error> {
         let function = Self::function(method, scene)?.clone();
         let tape = function.tape(&scene.parameters, PRECISION)?;
         Ok(Self { function, tape, domain: checked(scene.domain)? })
     }
 
     /// The function of a scene, if it has one.
-    pub(crate) fn function<'a>(
-        method: &str,
-        scene: &'a Scene,
-    ) -> Result<&'a Function, Unsupported> {
+    ///
+    /// # Errors
+    /// If it has none.
+    pub fn function<'a>(method: &str, scene: &'a Scene) -> Result<&'a Function, Unsupported> {
         match &scene.geometry {
             Geometry::Implicit(function) => Ok(function),
             _ => Err(Unsupported(format!("{method} casts rays at functions only"))),
@@ -36,7 +39,10 @@ impl Implicit {
     }
 
     /// New values for the parameters; after an error the old ones stay.
-    pub(crate) fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// If a name is unknown or a value is no finite constant.
+    pub fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
         self.tape = self.function.tape(values, PRECISION)?;
         Ok(())
     }

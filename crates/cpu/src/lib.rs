@@ -6,15 +6,18 @@
 //! | [`Bisection`] | \[knoll2007\]: `kmarch`, `tbisect`, `mitchell` | first hits, roots, misses |
 //! | [`Reference`] | this project: slow, judged first | all it decides |
 
-mod amp;
+pub mod amp;
 mod bisection;
 mod implicit;
 mod isa;
-mod normals;
+pub mod normals;
 mod reference;
-mod tiles;
+pub mod tiles;
 
 pub use amp::{Adaptation, Amp, RootTest};
-pub use bisection::{Algorithm, Arithmetic, Bisection, Finishing, Packets, Poles, Stop};
+pub use bisection::{
+    Algorithm, Arithmetic, Bisection, Finishing, Goal, Packets, Poles, Settled, Settler, Stop,
+};
+pub use implicit::Implicit;
 pub use normals::Normals;
 pub use reference::{Class, PreparedReference, Reference, Truth};

@@ -44,7 +44,7 @@ pub(crate) fn read(value: &str) -> Result<Normals, KnobError> {
 
 /// Fills in the normals if they were asked for: the unit gradient at the middle of each bracket, in
 /// double precision; zero where it vanishes or is not finite. Gives what that cost.
-pub(crate) fn fill(tape: &Tape, normals: Normals, rays: Rays<'_>, hits: &mut Hits) -> Work {
+pub fn fill(tape: &Tape, normals: Normals, rays: Rays<'_>, hits: &mut Hits) -> Work {
     if hits.request != Request::FirstWithNormal {
         return Work::default();
     }

@@ -87,24 +87,30 @@ impl Answers {
 
 /// A tile of a view by its corner, or a range of a batch.
 #[derive(Clone, Copy)]
-enum Tile<'a> {
+pub struct Tile<'a>(Part<'a>);
+
+#[derive(Clone, Copy)]
+enum Part<'a> {
     Pixels { view: &'a View, column: usize, row: usize },
     Range { batch: &'a RayBatch, start: usize, end: usize },
 }
 
-fn tiles(rays: Rays<'_>) -> Vec<Tile<'_>> {
+/// All rays in tiles of at most 1024.
+pub fn tiles(rays: Rays<'_>) -> Vec<Tile<'_>> {
     match rays {
         Rays::View(view) => (0..view.height)
             .step_by(SIDE)
             .flat_map(|row| {
-                (0..view.width).step_by(SIDE).map(move |column| Tile::Pixels { view, column, row })
+                (0..view.width)
+                    .step_by(SIDE)
+                    .map(move |column| Tile(Part::Pixels { view, column, row }))
             })
             .collect(),
         Rays::Batch(batch) => (0..batch.rays.len())
             .step_by(CHUNK)
             .map(|start| {
                 let end = (start + CHUNK).min(batch.rays.len());
-                Tile::Range { batch, start, end }
+                Tile(Part::Range { batch, start, end })
             })
             .collect(),
     }
@@ -113,12 +119,12 @@ fn tiles(rays: Rays<'_>) -> Vec<Tile<'_>> {
 impl Tile<'_> {
     /// Shows every ray and its index, neighbours together.
     #[inline(always)]
-    fn visit(self, mut see: impl FnMut(usize, Ray)) {
-        match self {
-            Self::Range { batch, start, end } => {
+    pub fn visit(self, mut see: impl FnMut(usize, Ray)) {
+        match self.0 {
+            Part::Range { batch, start, end } => {
                 (start..end).for_each(|index| see(index, batch.rays[index]));
             }
-            Self::Pixels { view, column, row } => {
+            Part::Pixels { view, column, row } => {
                 let columns = column..(column + SIDE).min(view.width);
                 let rows = row..(row + SIDE).min(view.height);
                 for block_row in rows.clone().step_by(BLOCK[1]) {

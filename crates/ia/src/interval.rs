@@ -324,8 +324,8 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
 
     #[inline(always)]
     fn powc(self, c: &Constant) -> Self {
-        let exponent = R::Scalar::enclose(c);
-        self.map(|x| range::power(x, exponent))
+        let [lo, hi] = R::power_range(self.bounds(), c);
+        Self::new(lo, hi)
     }
 
     #[inline(always)]
@@ -345,7 +345,10 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
                 let lo = self.hi.select_lt(zero, nan, root.lo);
                 Self::new(lo, self.hi.select_lt(zero, nan, root.hi)).empty_where(self)
             }
-            _ => self.map(|x| range::unary(f, x)),
+            _ => {
+                let [lo, hi] = R::unary_range(f, self.bounds());
+                Self::new(lo, hi)
+            }
         }
     }
 
@@ -361,9 +364,7 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
                 max.empty_where(self).empty_where(o)
             }
             _ => {
-                let [lo, hi] = R::map([self.lo, self.hi, o.lo, o.hi], |[a, b, c, d]| {
-                    range::binary(f, [a, b], [c, d])
-                });
+                let [lo, hi] = R::binary_range(f, self.bounds(), o.bounds());
                 Self::new(lo, hi)
             }
         }

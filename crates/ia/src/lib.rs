@@ -19,6 +19,7 @@
 //! | [`number`] | what an expression needs of a number |
 //! | [`interval`] | intervals, raw and set-based (IEEE 1788) |
 //! | [`plain`] | plain reals as numbers |
+//! | [`portable`] | reals and functions for devices that promise little |
 //! | [`decorated`] | intervals that know whether the function was defined and continuous |
 //! | [`dual`] | forward-mode derivatives over any number |
 //! | [`jet`] | Taylor series over any enclosing number |
@@ -36,6 +37,7 @@ pub mod lanes;
 pub mod nearest;
 pub mod number;
 pub mod plain;
+pub mod portable;
 mod power;
 mod range;
 pub mod real;
@@ -53,4 +55,5 @@ pub use lanes::{
 pub use nearest::Nearest;
 pub use number::{Binary, Number, Unary};
 pub use plain::Plain;
+pub use portable::{Mirror, Portable};
 pub use real::{Packet, Pair, Real, Scalar};

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::Constant;
+use crate::{Constant, range};
 
 /// Machine arithmetic on one float or on several at once.
 ///
@@ -46,7 +46,8 @@ pub trait Real:
     fn down(self) -> Self;
     /// A value at least as large as the exact result that was rounded to `self`.
     fn up(self) -> Self;
-    /// Applies a scalar function to each lane.
+    /// Applies a scalar function to each lane. A real that has no lanes to look into, since it is a
+    /// device's, must override the provided functions that use this.
     fn map<const N: usize, const M: usize>(
         x: [Self; N],
         f: impl Fn([Self::Scalar; N]) -> [Self::Scalar; M],
@@ -127,6 +128,22 @@ pub trait Real:
         let r = (a[1] * b[0]).zero_where_nan();
         let s = (a[1] * b[1]).zero_where_nan();
         [p.min(q).min(r.min(s)).down(), p.max(q).max(r.max(s)).up()]
+    }
+    /// The range of a function of one argument over an interval; not of those that are exact for ends.
+    #[inline(always)]
+    fn unary_range(f: crate::Unary, x: [Self; 2]) -> [Self; 2] {
+        Self::map(x, |x| range::unary(f, x))
+    }
+    /// The range of a function of two arguments over two intervals; not of min and max.
+    #[inline(always)]
+    fn binary_range(f: crate::Binary, x: [Self; 2], y: [Self; 2]) -> [Self; 2] {
+        Self::map([x[0], x[1], y[0], y[1]], |[a, b, c, d]| range::binary(f, [a, b], [c, d]))
+    }
+    /// The range of `x^c` over an interval, on the domain of [`Binary::Pow`](crate::Binary::Pow).
+    #[inline(always)]
+    fn power_range(x: [Self; 2], c: &Constant) -> [Self; 2] {
+        let exponent = Self::Scalar::enclose(c);
+        Self::map(x, |x| range::power(x, exponent))
     }
     /// `self`, or 0 where it is NaN.
     #[inline(always)]

@@ -23,6 +23,9 @@ pub enum Error {
     /// The answer would take longer than the caller allows.
     #[error("{0}")]
     TooSlow(String),
+    /// A device that a method runs on failed.
+    #[error("{0}")]
+    Device(String),
     /// The caller asked to stop.
     #[error("interrupted")]
     Interrupted,

@@ -51,6 +51,12 @@ impl Certificate {
         self.0 & other.0 == other.0
     }
 
+    /// What is left without the bits of `other`.
+    #[must_use]
+    pub fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
     /// Was something found?
     pub fn is_hit(self) -> bool {
         self.contains(Self::HIT)
@@ -233,6 +239,8 @@ mod tests {
         assert_eq!(hit | first, Certificate::POSSIBLE_HIT);
         assert_eq!(hit | root, Certificate::ROOT_HIT);
         assert_eq!(first, Certificate::PROVEN_MISS);
+        assert_eq!(Certificate::PROVEN_HIT.without(first), Certificate::ROOT_HIT);
+        assert_eq!(Certificate::HIT.without(first), Certificate::HIT);
         for certificate in Certificate::ALL {
             assert_eq!(certificate.is_hit(), certificate.name().ends_with("hit"));
             assert_eq!(certificate | Certificate::MISS, certificate);

@@ -11,14 +11,13 @@ use super::{Adaptation, RootTest};
 /// The part of a ray in the domain. The march counts s, the length from where the ray enters, so
 /// that steps are lengths in space and positions stay exact far from the eye.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Segment {
-    /// The ray's index in its tile.
-    ray: usize,
+pub struct Segment {
     /// Where s = 0.
-    start: [f32; 3],
+    pub start: [f32; 3],
     /// The unit vector along the ray.
-    direction: [f32; 3],
-    length: f32,
+    pub direction: [f32; 3],
+    /// The largest s.
+    pub length: f32,
     /// `t_s` and `t_e`.
     range: [f64; 2],
     /// Length in space for 1 in t.
@@ -27,11 +26,10 @@ pub(super) struct Segment {
 
 impl Segment {
     /// The part of a ray with t in `range`.
-    pub(super) fn new(index: usize, ray: Ray, range: [f64; 2]) -> Self {
+    pub fn new(ray: Ray, range: [f64; 2]) -> Self {
         let direction = ray.direction.as_dvec3();
         let speed = direction.length();
         Self {
-            ray: index,
             start: ray.at(range[0]).as_vec3().to_array(),
             direction: (direction / speed).as_vec3().to_array(),
             length: ((range[1] - range[0]) * speed) as f32,
@@ -42,12 +40,12 @@ impl Segment {
 
     /// Is its place known? For a ray from very far away, double precision does not tell where it
     /// enters the domain.
-    pub(super) fn is_resolved(&self, settings: &Settings) -> bool {
+    pub fn is_resolved(&self, settings: &Settings) -> bool {
         f64::from(self.length) <= 1.5 * settings.longest
     }
 
     /// The ray parameter at s.
-    fn t(&self, s: f64) -> f64 {
+    pub fn t(&self, s: f64) -> f64 {
         (self.range[0] + s / self.speed).min(self.range[1])
     }
 }
@@ -76,11 +74,11 @@ impl RootTest {
     }
 }
 
-/// The march of some rays; gives the answers with the rays' indices.
+/// The march of some rays, given with their indices; gives the answers with them.
 pub(super) struct March<'a> {
     pub tape: &'a Tape,
     pub settings: &'a Settings,
-    pub segments: &'a [Segment],
+    pub segments: &'a [(usize, Segment)],
 }
 
 impl Kernel for March<'_> {
@@ -154,7 +152,7 @@ fn march<R: Packet>(
     function: &mut Function<'_, R>,
     zero: R,
     settings: &Settings,
-    packet: &[Segment],
+    packet: &[(usize, Segment)],
     hits: &mut Vec<(usize, Hit)>,
 ) {
     let lines = Lines {
@@ -229,7 +227,7 @@ fn march<R: Packet>(
         }
         to = to.select(marching, (s + step).min(length), to);
     }
-    for (lane, segment) in packet.iter().enumerate() {
+    for (lane, (ray, segment)) in packet.iter().enumerate() {
         let number = |x: R| x.lane(lane).to_f64();
         let work = Work {
             points: number(points) as u64,
@@ -243,7 +241,7 @@ fn march<R: Packet>(
         } else {
             Hit::miss(Certificate::MISS, work)
         };
-        hits.push((segment.ray, hit));
+        hits.push((*ray, hit));
     }
 }
 
@@ -251,7 +249,7 @@ fn march<R: Packet>(
 #[inline(always)]
 fn columns<R: Packet, const N: usize>(
     zero: R,
-    packet: &[Segment],
+    packet: &[(usize, Segment)],
     numbers: impl Fn(&Segment) -> [f32; N],
 ) -> [R; N] {
     std::array::from_fn(
@@ -260,7 +258,7 @@ fn columns<R: Packet, const N: usize>(
             zero.from_fn(
                 #[inline(always)]
                 |lane| {
-                    let segment = &packet[lane.min(packet.len() - 1)];
+                    let (_, segment) = &packet[lane.min(packet.len() - 1)];
                     R::Scalar::from_f64(f64::from(numbers(segment)[n]))
                 },
             )

@@ -19,8 +19,9 @@ use zeroset_raycast::{
 use crate::implicit::Implicit;
 use crate::normals::{self, Normals};
 use crate::{isa, tiles};
-use march::{March, Segment};
-use rule::Settings;
+use march::March;
+pub use march::Segment;
+pub use rule::Settings;
 
 /// Decides whether a step holds a root.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -253,9 +254,9 @@ impl Prepared {
         let mut segments = Vec::with_capacity(rays.len());
         for (index, ray) in rays.iter().enumerate() {
             let Some(clip) = self.implicit.domain.clip(*ray, range) else { continue };
-            let segment = Segment::new(index, *ray, clip.outer);
+            let segment = Segment::new(*ray, clip.outer);
             if segment.is_resolved(settings) {
-                segments.push(segment);
+                segments.push((index, segment));
             } else {
                 hits[index].work.nonfinite += 1;
             }

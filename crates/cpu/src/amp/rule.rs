@@ -10,15 +10,24 @@ use crate::implicit::Implicit;
 
 /// The knobs as the march uses them: thresholds and epsilon in units of the function.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Settings {
+pub struct Settings {
+    /// Decides whether a step holds a root.
     pub test: RootTest,
+    /// b.
     pub step: f64,
+    /// The surface is near where |S| is at most this.
     pub tau1: f64,
+    /// It is far where |S| is more than this.
     pub tau2: f64,
+    /// A silhouette is near where |grad S . D| is at most this.
     pub tau3: f64,
+    /// The surface is S = epsilon.
     pub epsilon: f64,
+    /// Halvings of the isolated interval.
     pub bisections: u32,
+    /// Does |S| change the step?
     pub distance_adaptation: Adaptation,
+    /// Does |grad S . D|?
     pub silhouette_adaptation: Adaptation,
     /// No ray is longer within the domain, in units of space.
     pub longest: f64,
@@ -36,11 +45,10 @@ const PROBES: usize = 1024;
 
 impl Settings {
     /// The settings of a method for a function.
-    pub(super) fn new(
-        amp: &Amp,
-        implicit: &Implicit,
-        published_step: Option<f64>,
-    ) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// If single precision does not hold the domain and the step, or a ray needs too many samples.
+    pub fn new(amp: &Amp, implicit: &Implicit, published_step: Option<f64>) -> Result<Self, Error> {
         let domain = &implicit.domain;
         let step = amp.supported_step(domain, published_step)?;
         let scale = amp.scale.unwrap_or_else(|| size(&implicit.tape, domain));

@@ -10,7 +10,8 @@
 //! | [`Tbisect`](Algorithm::Tbisect) | parts of each ray's own range of t | they are small |
 //! | [`Mitchell`](Algorithm::Mitchell) | the same | F is monotone there: then without intervals |
 //!
-//! `cut`, `clock` and `lattice` have the geometry, `march` the traversal, `monotone` Mitchell's test, `finish` the proofs.
+//! `cut`, `clock` and `lattice` have the geometry, `march` the traversal, `monotone` Mitchell's test, `finish` the proofs,
+//! `settler` what they make of a piece.
 //! Departures from the paper are listed in `docs/deviations.md`.
 
 mod answers;
@@ -23,5 +24,7 @@ mod march;
 mod method;
 mod monotone;
 mod prepared;
+mod settler;
 
 pub use method::{Algorithm, Arithmetic, Bisection, Finishing, Packets, Poles, Stop};
+pub use settler::{Goal, Settled, Settler};

@@ -2,9 +2,7 @@
 
 use zeroset_expr::{Parameters, Tape};
 use zeroset_ia::{Isa, Kernel, Nearest, Rounding, dispatch, dispatch_register, widest};
-use zeroset_raycast::{
-    Error, Hit, Hits, Intersector, Method, Progress, Ray, Rays, Report, Request, Scene,
-};
+use zeroset_raycast::{Error, Hit, Hits, Intersector, Method, Progress, Ray, Rays, Report, Scene};
 
 use super::answers::Answers;
 use super::cut::{Axis, Cut};
@@ -12,6 +10,7 @@ use super::form::{Form, Numbers};
 use super::march::{FIRST, MAX_DEPTH, March, Marcher, RawPairs, RawVectors, SetVectors};
 use super::method::{Algorithm, Bisection, Finishing, Packets, Stop};
 use super::monotone::Refining;
+use super::settler::Goal;
 use crate::implicit::Implicit;
 use crate::{normals, tiles};
 
@@ -56,25 +55,6 @@ impl Intersector for Prepared {
         let mut report = tiles::cast(rays, hits, progress, |tile| self.cast(tile, &goal))?;
         report.work += normals::fill(&self.implicit.tape, self.method.normals, rays, hits);
         Ok(report)
-    }
-}
-
-/// What is asked of all rays.
-pub(super) struct Goal {
-    /// The range of t in which roots count.
-    pub range: [f64; 2],
-    /// d_stop or epsilon, coarser for shadow rays.
-    pub stop: Stop,
-}
-
-impl Goal {
-    fn new(method: &Bisection, request: Request, range: [f64; 2]) -> Self {
-        let coarser = if request == Request::Any { method.shadow } else { 0 };
-        let stop = match method.stop {
-            Stop::Depth(depth) => Stop::Depth(depth.saturating_sub(coarser)),
-            Stop::Width(width) => Stop::Width(width * 2.0_f64.powi(coarser as i32)),
-        };
-        Self { range, stop }
     }
 }
 

@@ -1,0 +1,252 @@
+//! Adaptive marching points on the device: the methods `amp-sign-gpu` and `amp-taylor-gpu`.
+
+use std::sync::{Mutex, PoisonError};
+
+use bytemuck::{Pod, Zeroable};
+use zeroset_cpu::amp::{Adaptation, Amp, RootTest, Segment, Settings};
+use zeroset_cpu::{Implicit, Normals, normals};
+use zeroset_expr::{Parameters, Tape};
+use zeroset_ia::Rounding;
+use zeroset_raycast::{
+    Certificate, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray, Rays,
+    Report, Request, Scene, Unsupported, Work, knob,
+};
+
+use crate::chunks::{self, Job, Traffic};
+use crate::compiled::Compiled;
+use crate::device::Choice;
+use crate::program::{Module, Numbers};
+use crate::settings;
+
+/// The march of [`Amp`] on a device, a ray an invocation: same knobs, same rule for what the paper leaves
+/// open, same steps. What differs is what the device's arithmetic may: see `docs/deviations.md`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AmpGpu {
+    /// The march; its instruction set has no meaning here.
+    pub amp: Amp,
+    /// Where it runs.
+    pub device: Choice,
+}
+
+const KERNEL: &str = include_str!("shaders/amp.wgsl");
+
+/// The shader's functions: S and its slope along a direction.
+fn module(tape: &Tape) -> Result<Module, Unsupported> {
+    let mut module = Module::new(Rounding::Nearest);
+    module.function("value", tape, Numbers::Plain)?;
+    module.function("slope", &tape.slope(), Numbers::Plain)?;
+    Ok(module)
+}
+
+/// The whole shader of a function, as it is compiled for a device.
+///
+/// # Errors
+/// If an operation has no form on devices.
+pub fn shader(tape: &Tape) -> Result<String, Unsupported> {
+    Ok(module(tape)?.shader(KERNEL))
+}
+
+impl Method for AmpGpu {
+    fn id(&self) -> &'static str {
+        match self.amp.test {
+            _ => "amp-sign-gpu",
+        }
+    }
+
+    fn summary(&self) -> &'static str {
+        match self.amp.test {
+            _ => "amp-sign on the GPU [singh2010]",
+        }
+    }
+
+    fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
+        self.amp.supports(scene)?;
+        settings::available(&self.device)
+    }
+
+    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Intersector>, Error> {
+        let implicit = Implicit::new(self.id(), scene)?;
+        let published_step = scene.published_step;
+        let settings = Settings::new(&self.amp, &implicit, published_step)?;
+        let compiled = Compiled::new(&self.device, &module(&implicit.tape)?, KERNEL)?;
+        let method = self.clone();
+        let compiled = Mutex::new(compiled);
+        Ok(Box::new(Prepared { method, implicit, published_step, settings, compiled }))
+    }
+
+    fn knobs(&self) -> Vec<Knob> {
+        settings::knobs(self.amp.knobs(), &self.device)
+    }
+
+    fn set(&mut self, name: &str, value: &str) -> Result<(), KnobError> {
+        match name {
+            "device" => self.device = Choice::read(value),
+            name if self.knobs().iter().any(|knob| knob.name == name) => {
+                self.amp.set(name, value)?;
+            }
+            _ => return Err(knob::unknown(self.id(), name, &self.knobs())),
+        }
+        Ok(())
+    }
+
+    fn for_precision(&mut self, width: f64, scene: &Scene) {
+        self.amp.for_precision(width, scene);
+    }
+
+    fn boxed(&self) -> Box<dyn Method> {
+        Box::new(self.clone())
+    }
+}
+
+struct Prepared {
+    method: AmpGpu,
+    implicit: Implicit,
+    published_step: Option<f64>,
+    settings: Settings,
+    compiled: Mutex<Compiled>,
+}
+
+impl Intersector for Prepared {
+    fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
+        let mut implicit = self.implicit.clone();
+        implicit.set_parameters(values)?;
+        let settings = Settings::new(&self.method.amp, &implicit, self.published_step)?;
+        let compiled = self.compiled.get_mut().unwrap_or_else(PoisonError::into_inner);
+        compiled.update(&module(&implicit.tape)?, KERNEL)?;
+        (self.settings, self.implicit) = (settings, implicit);
+        Ok(())
+    }
+
+    fn intersect(
+        &self,
+        rays: Rays<'_>,
+        hits: &mut Hits,
+        progress: &Progress,
+    ) -> Result<Report, Error> {
+        let mut settings = self.settings;
+        if hits.request == Request::Any {
+            // Whether there is a root is known once a step holds one (Section 4.2).
+            settings.bisections = 0;
+        }
+        let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
+        if compiled.device.is_lost() {
+            compiled.update(&module(&self.implicit.tape)?, KERNEL)?;
+        }
+        let job = Job {
+            device: &compiled.device,
+            kernel: &compiled.kernel,
+            constants: &compiled.constants,
+        };
+        let march = March { implicit: &self.implicit, settings, range: rays.range() };
+        let mut report = chunks::cast(&job, &march, rays, hits, progress)?;
+        report.work += normals::fill(&self.implicit.tape, Normals::Gradient, rays, hits);
+        Ok(report)
+    }
+}
+
+/// The march as the device is told of it.
+struct March<'a> {
+    implicit: &'a Implicit,
+    settings: Settings,
+    range: [f64; 2],
+}
+
+/// The shader's `Settings`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+struct SentSettings {
+    step: f32,
+    tau1: f32,
+    tau2: f32,
+    tau3: f32,
+    epsilon: f32,
+    bisections: u32,
+    distance_adaptation: u32,
+    silhouette_adaptation: u32,
+    test: u32,
+    rays: u32,
+    unused: [u32; 2],
+}
+
+/// The shader's `Segment`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+struct SentSegment {
+    start: [f32; 3],
+    length: f32,
+    direction: [f32; 3],
+    unused: f32,
+}
+
+/// The shader's `Answer`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+struct SentAnswer {
+    bracket: [f32; 2],
+    found: u32,
+    points: u32,
+    gradients: u32,
+    nonfinite: u32,
+}
+
+impl Traffic for March<'_> {
+    type Ready = Segment;
+    type Sent = SentSegment;
+    type Answer = SentAnswer;
+    type Settings = SentSettings;
+    type Reader = ();
+
+    fn ready(&self, ray: Ray) -> Result<Segment, Hit> {
+        let miss =
+            |nonfinite| Err(Hit::miss(Certificate::MISS, Work { nonfinite, ..Work::default() }));
+        match self.implicit.domain.clip(ray, self.range) {
+            None => miss(0),
+            Some(clip) => {
+                let segment = Segment::new(ray, clip.outer);
+                if segment.is_resolved(&self.settings) { Ok(segment) } else { miss(1) }
+            }
+        }
+    }
+
+    fn sent(&self, segment: &Segment) -> SentSegment {
+        let Segment { start, direction, length, .. } = *segment;
+        SentSegment { start, length, direction, unused: 0.0 }
+    }
+
+    fn settings(&self, rays: u32) -> SentSettings {
+        let Settings { step, tau1, tau2, tau3, epsilon, .. } = self.settings;
+        let [step, tau1, tau2, tau3, epsilon] = [step, tau1, tau2, tau3, epsilon].map(|x| x as f32);
+        SentSettings {
+            step,
+            tau1,
+            tau2,
+            tau3,
+            epsilon,
+            bisections: self.settings.bisections,
+            distance_adaptation: (self.settings.distance_adaptation == Adaptation::On).into(),
+            silhouette_adaptation: (self.settings.silhouette_adaptation == Adaptation::On).into(),
+            test: match self.settings.test {
+                RootTest::Sign => 0,
+                _ => 1,
+            },
+            rays,
+            unused: [0; 2],
+        }
+    }
+
+    fn reader(&self) {}
+
+    fn read(&self, (): &mut (), segment: Segment, answer: &SentAnswer) -> Result<Hit, Segment> {
+        let work = Work {
+            points: answer.points.into(),
+            gradients: answer.gradients.into(),
+            nonfinite: answer.nonfinite.into(),
+            ..Work::default()
+        };
+        if answer.found == 0 {
+            return Ok(Hit::miss(Certificate::MISS, work));
+        }
+        let bracket = answer.bracket.map(|s| segment.t(s.into()));
+        Ok(Hit { bracket, certificate: Certificate::HIT, work })
+    }
+}

@@ -1,0 +1,368 @@
+//! Interval bisection on the device: the method `tbisect-gpu`.
+
+use std::sync::{Mutex, PoisonError};
+
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+use zeroset_cpu::{Bisection, Finishing, Goal, Implicit, Settled, Settler, Stop, normals};
+use zeroset_expr::{Parameters, Tape};
+use zeroset_ia::{Interval, Rounding, Scalar, Set};
+use zeroset_raycast::{
+    Certificate, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray, Rays,
+    Report, Scene, Unsupported, Work, knob,
+};
+
+use crate::bounded;
+use crate::chunks::{self, Job, Traffic};
+use crate::compiled::Compiled;
+use crate::device::Choice;
+use crate::program::{Module, Numbers};
+use crate::settings;
+
+/// `tbisect` on a device, a ray an invocation.
+///
+/// The device excludes pieces of the ray, and the CPU settles what is left as it does for `tbisect`. With
+/// outward rounding, excluded is proven: intervals there make no use of what a shading language does
+/// not promise (`zeroset_ia::portable`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct BisectionGpu {
+    /// The settings; packets, arithmetic, poles and delta have no meaning here.
+    pub bisection: Bisection,
+    /// Where it runs.
+    pub device: Choice,
+}
+
+impl Default for BisectionGpu {
+    fn default() -> Self {
+        Self { bisection: Bisection::tbisect(), device: Choice::Auto }
+    }
+}
+
+const KERNEL: &str = include_str!("shaders/tbisect.wgsl");
+
+/// The shader's function: F over intervals.
+fn module(tape: &Tape, rounding: Rounding) -> Result<Module, Unsupported> {
+    let mut module = Module::new(rounding);
+    module.function("value", tape, Numbers::Interval)?;
+    Ok(module)
+}
+
+/// The whole shader of a function, as it is compiled for a device.
+///
+/// # Errors
+/// If an operation has no form on devices.
+pub fn shader(tape: &Tape, rounding: Rounding) -> Result<String, Unsupported> {
+    Ok(module(tape, rounding)?.shader(KERNEL))
+}
+
+impl Method for BisectionGpu {
+    fn id(&self) -> &'static str {
+        "tbisect-gpu"
+    }
+
+    fn summary(&self) -> &'static str {
+        "tbisect on the GPU [knoll2007]"
+    }
+
+    fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
+        let unsupported = |error| match error {
+            Error::Unsupported(unsupported) => unsupported,
+            other => Unsupported(other.to_string()),
+        };
+        let implicit = Implicit::new(self.id(), scene).map_err(unsupported)?;
+        module(&implicit.tape, self.bisection.rounding)?;
+        bounded::check(&implicit.tape, &implicit.domain)?;
+        settings::available(&self.device)
+    }
+
+    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Intersector>, Error> {
+        let implicit = Implicit::new(self.id(), scene)?;
+        bounded::check(&implicit.tape, &implicit.domain)?;
+        let module = module(&implicit.tape, self.bisection.rounding)?;
+        let compiled = Mutex::new(Compiled::new(&self.device, &module, KERNEL)?);
+        Ok(Box::new(Prepared { method: self.clone(), implicit, compiled }))
+    }
+
+    fn knobs(&self) -> Vec<Knob> {
+        settings::knobs(self.bisection.knobs(), &self.device)
+    }
+
+    fn set(&mut self, name: &str, value: &str) -> Result<(), KnobError> {
+        match name {
+            "device" => self.device = Choice::read(value),
+            name if self.knobs().iter().any(|knob| knob.name == name) => {
+                self.bisection.set(name, value)?;
+            }
+            _ => return Err(knob::unknown(self.id(), name, &self.knobs())),
+        }
+        Ok(())
+    }
+
+    fn for_precision(&mut self, width: f64, scene: &Scene) {
+        self.bisection.for_precision(width, scene);
+    }
+
+    fn boxed(&self) -> Box<dyn Method> {
+        Box::new(self.clone())
+    }
+}
+
+struct Prepared {
+    method: BisectionGpu,
+    implicit: Implicit,
+    compiled: Mutex<Compiled>,
+}
+
+impl Intersector for Prepared {
+    fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
+        let mut implicit = self.implicit.clone();
+        implicit.set_parameters(values)?;
+        bounded::check(&implicit.tape, &implicit.domain)?;
+        let compiled = self.compiled.get_mut().unwrap_or_else(PoisonError::into_inner);
+        compiled.update(&module(&implicit.tape, self.method.bisection.rounding)?, KERNEL)?;
+        self.implicit = implicit;
+        Ok(())
+    }
+
+    fn intersect(
+        &self,
+        rays: Rays<'_>,
+        hits: &mut Hits,
+        progress: &Progress,
+    ) -> Result<Report, Error> {
+        let Self { method: BisectionGpu { bisection, .. }, implicit, .. } = self;
+        let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
+        if compiled.device.is_lost() {
+            compiled.update(&module(&implicit.tape, bisection.rounding)?, KERNEL)?;
+        }
+        let goal = Goal::new(bisection, hits.request, rays.range());
+        let job = Job {
+            device: &compiled.device,
+            kernel: &compiled.kernel,
+            constants: &compiled.constants,
+        };
+        let march = March { method: bisection, implicit, goal: &goal };
+        let mut report = chunks::cast(&job, &march, rays, hits, progress)?;
+        report.work += normals::fill(&implicit.tape, bisection.normals, rays, hits);
+        Ok(report)
+    }
+}
+
+/// The march as the device is told of it.
+struct March<'a> {
+    method: &'a Bisection,
+    implicit: &'a Implicit,
+    goal: &'a Goal,
+}
+
+/// The deepest pieces: an index is exact in single precision.
+const MAX_DEPTH: u32 = 23;
+/// A ray that comes back more often than this ends with a possible hit.
+const MOST_ROUNDS: u32 = 64;
+
+/// A ray on its way.
+struct Marcher {
+    ray: Ray,
+    /// The range of t that contains all that counts.
+    range: [f64; 2],
+    /// The ray from the start of the range on, as the device has it: t = range[0] + s unit.
+    base: [[f32; 2]; 3],
+    direction: [f32; 3],
+    length: f32,
+    unit: f64,
+    /// Does the device have exactly this ray?
+    exact: bool,
+    /// The piece to go on with.
+    index: u32,
+    depth: u32,
+    /// Pieces of this depth are settled.
+    last: u32,
+    rounds: u32,
+    hit: Hit,
+    settled: Settled,
+}
+
+type I = Interval<f64, Set>;
+
+impl Marcher {
+    fn new(ray: Ray, range: [f64; 2], depth: impl Fn(f64) -> u32, miss: Hit) -> Self {
+        // A power of two makes the largest component one of [1, 2): exact, but for the tiniest of others.
+        let largest = f64::from(ray.direction.abs().max_element());
+        let scale = 2.0_f64.powi(-(largest.log2().floor() as i32));
+        let scaled = ray.direction.as_dvec3() * scale;
+        let direction = scaled.to_array().map(|x| x as f32);
+        let base: [[f32; 2]; 3] = std::array::from_fn(|axis| {
+            let along = I::point(range[0]) * I::point(f64::from(ray.direction[axis]));
+            let start = I::point(f64::from(ray.origin[axis])) + along;
+            normal(f32::enclose_range(start.lo, start.hi))
+        });
+        let whole = (I::point(range[1]) - I::point(range[0])) * I::point(scale.recip());
+        let length = (whole.hi as f32).next_up();
+        let is_normal = |x: f32| x == 0.0 || x.is_normal();
+        let exact = DVec3::from(direction.map(f64::from)) == scaled
+            && direction.into_iter().all(is_normal)
+            && base.iter().flatten().all(|x| x.is_finite())
+            && length.is_finite()
+            && f64::from(length) > 2.0_f64.powi(-90);
+        let last = depth(range[1] - range[0]);
+        Self {
+            ray,
+            range,
+            base,
+            direction,
+            length,
+            unit: scale,
+            exact,
+            index: 0,
+            depth: 0,
+            last,
+            rounds: 0,
+            hit: miss,
+            settled: Settled::default(),
+        }
+    }
+
+    /// The piece's range of t, rounded outward.
+    fn piece(&self, index: u32) -> [f64; 2] {
+        // Exact: 24 and 24 bits, and powers of two.
+        let t = |index: u32| {
+            f64::from(index)
+                * 2.0_f64.powi(-(self.last as i32))
+                * f64::from(self.length)
+                * self.unit
+        };
+        let start = I::point(self.range[0]);
+        let [from, to] = [index, index + 1].map(|i| start + I::point(t(i)));
+        [from.lo.max(self.range[0]), to.hi.min(self.range[1])]
+    }
+
+    /// Goes on at the piece that holds t, or behind the piece `index`, if that is farther. False at the
+    /// end of the ray.
+    fn go_on(&mut self, t: f64, index: u32) -> bool {
+        let pieces = 2.0_f64.powi(self.last as i32);
+        let place = (t - self.range[0]) / (f64::from(self.length) * self.unit) * pieces;
+        // A piece earlier than rounding may put it; not a number never.
+        let next = (place - 1.0).floor().clamp(0.0, pieces) as u32;
+        let next = next.max(index + 1);
+        if next >= 1 << self.last {
+            return false;
+        }
+        let up = next.trailing_zeros().min(self.last);
+        (self.index, self.depth) = (next >> up, self.last - up);
+        self.rounds += 1;
+        true
+    }
+}
+
+/// A range without subnormal ends.
+fn normal([lo, hi]: [f32; 2]) -> [f32; 2] {
+    let least = f32::MIN_POSITIVE;
+    [if lo.abs() >= least { lo } else { -least }, if hi.abs() >= least { hi } else { least }]
+}
+
+/// The shader's `Settings`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+struct SentSettings {
+    rays: u32,
+    unused: [u32; 3],
+}
+
+/// The shader's `Line`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+struct SentLine {
+    base_lo: [f32; 3],
+    length: f32,
+    base_hi: [f32; 3],
+    index: u32,
+    direction: [f32; 3],
+    depths: u32,
+}
+
+/// The shader's `Answer`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+struct SentAnswer {
+    index: u32,
+    found: u32,
+    intervals: u32,
+    unused: u32,
+}
+
+impl March<'_> {
+    /// How often a range of t of that length is bisected.
+    fn depth(&self, length: f64) -> u32 {
+        let stop = match self.goal.stop {
+            Stop::Depth(depth) => depth,
+            Stop::Width(width) => (length / width).log2().ceil().clamp(0.0, 40.0) as u32,
+        };
+        let levels = match self.method.finish {
+            Finishing::Accept => 0,
+            Finishing::Certify => self.method.levels,
+        };
+        (stop + levels).min(MAX_DEPTH)
+    }
+}
+
+impl<'a> Traffic for March<'a> {
+    type Ready = Marcher;
+    type Sent = SentLine;
+    type Answer = SentAnswer;
+    type Settings = SentSettings;
+    type Reader = Settler<'a>;
+
+    fn ready(&self, ray: Ray) -> Result<Marcher, Hit> {
+        let miss = self.method.miss();
+        let clip = self.implicit.domain.clip(ray, self.goal.range).ok_or(miss)?;
+        Ok(Marcher::new(ray, clip.outer, |length| self.depth(length), miss))
+    }
+
+    fn sent(&self, marcher: &Marcher) -> SentLine {
+        let Marcher { base, direction, length, index, depth, last, .. } = *marcher;
+        SentLine {
+            base_lo: base.map(|x| x[0]),
+            length,
+            base_hi: base.map(|x| x[1]),
+            index,
+            direction,
+            depths: depth | last << 8,
+        }
+    }
+
+    fn settings(&self, rays: u32) -> SentSettings {
+        SentSettings { rays, unused: [0; 3] }
+    }
+
+    fn reader(&self) -> Settler<'a> {
+        Settler::new(self.method, self.implicit, self.goal)
+    }
+
+    fn read(
+        &self,
+        settler: &mut Settler<'a>,
+        mut marcher: Marcher,
+        answer: &SentAnswer,
+    ) -> Result<Hit, Marcher> {
+        marcher.hit.work += Work { intervals: answer.intervals.into(), ..Work::default() };
+        if answer.found == 1 {
+            let piece = marcher.piece(answer.index);
+            let Marcher { ray, range, rounds, .. } = marcher;
+            let whole = range[1] - range[0];
+            let (hit, settled) = (&mut marcher.hit, &mut marcher.settled);
+            let next = settler.settle_small(hit, settled, ray, range, piece, whole);
+            if let Some(t) = next {
+                if rounds == MOST_ROUNDS {
+                    marcher.hit.bracket = [piece[0].max(t).min(range[1]), range[1]];
+                    marcher.hit.certificate = self.method.proof(Certificate::POSSIBLE_HIT);
+                } else if marcher.go_on(t, answer.index) {
+                    return Err(marcher);
+                }
+            }
+        }
+        if !marcher.exact {
+            marcher.hit.certificate = marcher.hit.certificate.without(Certificate::FIRST);
+        }
+        Ok(marcher.hit)
+    }
+}

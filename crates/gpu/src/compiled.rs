@@ -1,0 +1,49 @@
+//! A method's shader on a device.
+
+use std::sync::Arc;
+
+use zeroset_raycast::Error;
+
+use crate::device::{Binding, Buffer, Choice, Device, DeviceError, Kernel};
+use crate::program::Module;
+
+/// A shader, compiled for a device that it also keeps open.
+pub(crate) struct Compiled {
+    choice: Choice,
+    pub device: Arc<Device>,
+    pub kernel: Kernel,
+    pub constants: Buffer<[f32; 4]>,
+    source: String,
+}
+
+impl Compiled {
+    /// Compiles the functions and the kernel that calls them.
+    pub(crate) fn new(choice: &Choice, module: &Module, kernel: &str) -> Result<Self, Error> {
+        let source = module.shader(kernel);
+        let device = Device::open(choice)?;
+        let bindings = [module.binding(), Binding::Uniform, Binding::Read, Binding::Write];
+        let kernel = device.kernel("rays", &source, &bindings)?;
+        let constants = constants(&device, module)?;
+        Ok(Self { choice: choice.clone(), device, kernel, constants, source })
+    }
+
+    /// The same for other constants, if the functions are the same; else all anew.
+    pub(crate) fn update(&mut self, module: &Module, kernel: &str) -> Result<(), Error> {
+        if self.device.is_lost() || module.shader(kernel) != self.source {
+            *self = Self::new(&self.choice, module, kernel)?;
+        } else {
+            self.device.write(&self.constants, &module.constants())?;
+        }
+        Ok(())
+    }
+}
+
+fn constants(device: &Device, module: &Module) -> Result<Buffer<[f32; 4]>, DeviceError> {
+    let values = module.constants();
+    let buffer = match module.binding() {
+        Binding::Uniform => device.uniform(values.len())?,
+        Binding::Read | Binding::Write => device.storage(values.len())?,
+    };
+    device.write(&buffer, &values)?;
+    Ok(buffer)
+}

@@ -1,0 +1,201 @@
+//! Kernels: compiled shaders, run over arrays.
+
+use std::time::Duration;
+
+use super::{Buffer, Device, DeviceError};
+
+/// Invocations in a workgroup, as every shader here declares.
+const WORKGROUP: u32 = 64;
+
+/// How a kernel uses a buffer; the order is that of the shader's binding numbers in group 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binding {
+    /// `var<uniform>`.
+    Uniform,
+    /// `var<storage, read>`.
+    Read,
+    /// `var<storage, read_write>`.
+    Write,
+}
+
+/// A compute shader, compiled.
+#[derive(Debug)]
+pub struct Kernel {
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    bindings: usize,
+}
+
+impl Device {
+    /// Compiles the entry point `main` of a shader.
+    ///
+    /// # Errors
+    /// If the shader is invalid or the driver refuses it.
+    pub fn kernel(
+        &self,
+        label: &str,
+        source: &str,
+        bindings: &[Binding],
+    ) -> Result<Kernel, DeviceError> {
+        let entries: Vec<_> = bindings
+            .iter()
+            .zip(0..)
+            .map(|(kind, binding)| wgpu::BindGroupLayoutEntry {
+                binding,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty: match kind {
+                        Binding::Uniform => wgpu::BufferBindingType::Uniform,
+                        Binding::Read => wgpu::BufferBindingType::Storage { read_only: true },
+                        Binding::Write => wgpu::BufferBindingType::Storage { read_only: false },
+                    },
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            })
+            .collect();
+        self.guarded(|| {
+            let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(source.into()),
+            });
+            let layout = self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries: &entries,
+            });
+            let whole = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(label),
+                bind_group_layouts: &[Some(&layout)],
+                immediate_size: 0,
+            });
+            let pipeline = self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(label),
+                layout: Some(&whole),
+                module: &module,
+                entry_point: Some("main"),
+                compilation_options: Default::default(),
+                cache: None,
+            });
+            Ok(Kernel { pipeline, layout, bindings: entries.len() })
+        })
+    }
+
+    /// Runs a kernel with at least that many invocations, and waits; gives the time that the device
+    /// measured, if it can.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    ///
+    /// # Panics
+    /// If there are not as many buffers as bindings.
+    pub fn run(
+        &self,
+        kernel: &Kernel,
+        buffers: &[&dyn AsBinding],
+        invocations: usize,
+    ) -> Result<Option<Duration>, DeviceError> {
+        assert_eq!(buffers.len(), kernel.bindings, "one buffer a binding");
+        let entries: Vec<_> = buffers
+            .iter()
+            .zip(0..)
+            .map(|(buffer, binding)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.raw().as_entire_binding(),
+            })
+            .collect();
+        let clock = self.clock()?;
+        self.guarded(|| {
+            let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &kernel.layout,
+                entries: &entries,
+            });
+            let mut encoder = self.device.create_command_encoder(&Default::default());
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: None,
+                timestamp_writes: clock.as_ref().map(|clock| wgpu::ComputePassTimestampWrites {
+                    query_set: &clock.queries,
+                    beginning_of_pass_write_index: Some(0),
+                    end_of_pass_write_index: Some(1),
+                }),
+            });
+            pass.set_pipeline(&kernel.pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            let [columns, rows] = grid(invocations);
+            pass.dispatch_workgroups(columns, rows, 1);
+            drop(pass);
+            if let Some(clock) = &clock {
+                encoder.resolve_query_set(&clock.queries, 0..2, &clock.ticks.raw, 0);
+            }
+            self.queue.submit([encoder.finish()]);
+            self.wait()
+        })?;
+        clock.map(|clock| self.elapsed(&clock)).transpose()
+    }
+
+    /// Two timestamps, if the device has them.
+    fn clock(&self) -> Result<Option<Clock>, DeviceError> {
+        if !self.report.timestamps {
+            return Ok(None);
+        }
+        let queries = self.guarded(|| {
+            Ok(self.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: None,
+                ty: wgpu::QueryType::Timestamp,
+                count: 2,
+            }))
+        })?;
+        let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
+        Ok(Some(Clock { queries, ticks: self.buffer(2, usage)? }))
+    }
+
+    fn elapsed(&self, clock: &Clock) -> Result<Duration, DeviceError> {
+        let ticks = self.read(&clock.ticks, 2)?;
+        let nanoseconds =
+            ticks[1].saturating_sub(ticks[0]) as f64 * f64::from(self.queue.get_timestamp_period());
+        Ok(Duration::from_nanos(nanoseconds as u64))
+    }
+}
+
+struct Clock {
+    queries: wgpu::QuerySet,
+    ticks: Buffer<u64>,
+}
+
+/// A buffer of any type, to be bound.
+pub trait AsBinding {
+    /// The buffer behind it.
+    #[doc(hidden)]
+    fn raw(&self) -> &wgpu::Buffer;
+}
+
+impl<T> AsBinding for Buffer<T> {
+    fn raw(&self) -> &wgpu::Buffer {
+        &self.raw
+    }
+}
+
+/// The most workgroups along one side of a grid that every device allows.
+const LONGEST_SIDE: u32 = 65_535;
+
+/// Columns and rows of a grid with at least that many invocations.
+fn grid(invocations: usize) -> [u32; 2] {
+    let groups = invocations.div_ceil(WORKGROUP as usize) as u32;
+    let columns = groups.clamp(1, LONGEST_SIDE);
+    [columns, groups.div_ceil(columns).max(1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grids_hold_all_invocations() {
+        for n in [0, 1, 64, 65, 1 << 20, 1 << 22, (1 << 22) + 1, 1 << 28] {
+            let [columns, rows] = grid(n);
+            assert!(columns <= LONGEST_SIDE && rows <= LONGEST_SIDE);
+            assert!(columns as usize * rows as usize * WORKGROUP as usize >= n, "{n}");
+        }
+    }
+}

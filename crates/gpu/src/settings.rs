@@ -1,0 +1,22 @@
+//! What all methods on devices have: the knob `device`.
+
+use zeroset_raycast::{Knob, Unsupported};
+
+use crate::device::{Choice, Device};
+
+/// The knobs of a method's twin on the CPU that have a meaning on a device, and `device`.
+pub(crate) fn knobs(twin: Vec<Knob>, choice: &Choice) -> Vec<Knob> {
+    let mut knobs = twin;
+    knobs.retain(|knob| !matches!(knob.name, "isa" | "packet" | "arithmetic" | "poles" | "delta"));
+    knobs.push(Knob {
+        name: "device",
+        value: choice.to_string(),
+        doc: "where it runs: a number or a part of a name in the list of `zeroset devices`, or auto: what the variable ZEROSET_DEVICE says, else the first (default auto)",
+    });
+    knobs
+}
+
+/// Can the device be opened?
+pub(crate) fn available(choice: &Choice) -> Result<(), Unsupported> {
+    Device::open(choice).map(|_| ()).map_err(|e| Unsupported(e.to_string()))
+}
