@@ -76,7 +76,7 @@ impl Animator<'_> {
             }
         }
         drop(bar);
-        self.join(&tally.there)?;
+        join(self.motion, self.files, &tally.there)?;
         self.report(&tally, prepared)
     }
 
@@ -97,19 +97,6 @@ impl Animator<'_> {
         let frame =
             Painter { view: &view, ..self.painter }.paint(&what, scene, intersector, bar)?;
         Ok(Drawn { time: set + frame.time(), frame, view })
-    }
-
-    /// Joins frames to the animated PNG that is asked for.
-    fn join(&self, there: &[usize]) -> Result<(), Failure> {
-        let (Some(apng), [_, ..]) = (&self.motion.apng, there) else { return Ok(()) };
-        let mut animation = Animation::new(self.motion.fps);
-        for file in there.iter().map(|index| self.files.file(*index)) {
-            let bytes = fs::read(&file).map_err(|error| {
-                Failure::work(format!("cannot read the frame {}: {error}", file.display()))
-            })?;
-            animation.push(&file, &bytes).map_err(Failure::work)?;
-        }
-        animation.save(apng).map_err(Failure::work)
     }
 
     /// Prints what was made and what it cost; names the frames that were not made.
@@ -156,6 +143,23 @@ struct Drawn {
     frame: Frame,
     view: View,
     time: Duration,
+}
+
+/// Joins frames to the animated PNG that is asked for.
+pub(crate) fn join(
+    motion: &MotionOptions,
+    files: &FrameFiles,
+    there: &[usize],
+) -> Result<(), Failure> {
+    let (Some(apng), [_, ..]) = (&motion.apng, there) else { return Ok(()) };
+    let mut animation = Animation::new(motion.fps);
+    for file in there.iter().map(|index| files.file(*index)) {
+        let bytes = fs::read(&file).map_err(|error| {
+            Failure::work(format!("cannot read the frame {}: {error}", file.display()))
+        })?;
+        animation.push(&file, &bytes).map_err(Failure::work)?;
+    }
+    animation.save(apng).map_err(Failure::work)
 }
 
 impl Tally {

@@ -19,11 +19,13 @@ mod output;
 mod pictures;
 mod ray_file;
 mod render;
+mod resident;
 mod show;
 mod surface;
 mod table;
 mod trace;
 mod track;
+mod tune;
 mod watch;
 
 use std::process::ExitCode;
@@ -52,6 +54,7 @@ enum Command {
     Render(Box<render::Render>),
     Compare(Box<compare::Compare>),
     Trace(Box<trace::Trace>),
+    Tune(Box<tune::Tune>),
     Devices(devices::Devices),
 }
 
@@ -79,6 +82,7 @@ fn run(command_line: &CommandLine) -> Result<(), Failure> {
         Command::Render(render) => render.run(),
         Command::Compare(compare) => compare.run(),
         Command::Trace(trace) => trace.run(),
+        Command::Tune(tune) => tune.run(),
         Command::Devices(devices) => devices.run(),
     }
 }

@@ -16,6 +16,7 @@ use crate::lighting::LightOptions;
 use crate::motion::MotionOptions;
 use crate::numbers::short;
 use crate::options::{self, CameraOptions, MethodOptions, SceneOptions, Size};
+use crate::resident::{self, Resident};
 use crate::watch::{self, Bar};
 use crate::{output, surface};
 
@@ -26,6 +27,7 @@ Examples:
   zeroset render '-x^2-y^2-z^2+1' --camera eye=0,-4,0,fov=30 --out sphere.png
   zeroset render torus --method amp-sign --view error --legend --out error.png
   zeroset render klein --light 1,-1,2 --shadows on
+  zeroset render barth-decic --method amp-sign-gpu --resident --animate azimuth=0:90:60 --out turn/
   zeroset render morph-hyperboloid-torus --animate w=0:1:60 --out frames/ --apng morph.png
 
 Frames are numbered from 0: frame i of N has FROM + (TO - FROM)*i/(N - 1), exactly. Frames that are
@@ -59,6 +61,10 @@ pub(crate) struct Render {
     methods: MethodOptions,
     #[command(flatten)]
     motion: MotionOptions,
+    /// Makes the whole picture on the device, with a method amp-sign-gpu or amp-taylor-gpu: rays,
+    /// shadows, light and image stay there, and its clock times them
+    #[arg(long)]
+    resident: bool,
     /// The picture, or with .exr the hits as numbers too; for an animation a folder, or the file
     /// whose name gets the numbers of frames [default: out/SURFACE-METHOD-VIEW.png]
     #[arg(long, value_name = "FILE.png|FILE.exr|FOLDER", value_parser = destination::destination)]
@@ -77,9 +83,32 @@ impl Render {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         self.light.check(self.view)?;
         match self.motion.frames()? {
+            frames if self.resident => self.stay(frames),
             Some(frames) => self.animate(frames),
             None => self.draw(),
         }
+    }
+
+    /// Draws one picture, or one for each frame, on the device.
+    fn stay(&self, frames: Option<usize>) -> Result<(), Failure> {
+        if self.legend {
+            return Err(Failure::usage("--legend is not for --resident"));
+        }
+        let options = match frames {
+            None => self.scene.clone(),
+            Some(_) => self.motion.first_scene(&self.scene)?,
+        };
+        let Setup { scene, view, method } = self.setup(&options)?;
+        let resident = Resident {
+            march: resident::march(&*method, self.view)?,
+            motion: &self.motion,
+            light: &self.light,
+            view: &view,
+            destination: &self.destination(&scene),
+            frames,
+            progress: &watch::interruptible()?,
+        };
+        resident.run(scene)
     }
 
     /// Draws one picture.

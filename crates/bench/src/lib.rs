@@ -10,6 +10,7 @@
 //! - [`judge`](mod@judge) compares each answer, and each claim of its certificate, with the truth.
 //! - [`compare`](mod@compare) runs methods on a scene and rays: judged first, timed then.
 //! - A [`Record`] is one run as a row of a table.
+//! - [`tune`] measures settings of AMP on a surface.
 //! - [`conformance`] is the suite that every method must pass.
 
 pub mod compare;
@@ -19,6 +20,7 @@ pub mod machine;
 pub mod methods;
 pub mod record;
 pub mod truth;
+pub mod tune;
 
 pub use compare::{Comparison, Options, Outcome, Run, Stage, Times, compare};
 pub use conformance::{Failure, check};

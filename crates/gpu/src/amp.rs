@@ -28,10 +28,10 @@ pub struct AmpGpu {
     pub device: Choice,
 }
 
-const KERNEL: &str = include_str!("shaders/amp.wgsl");
+const KERNEL: &str = concat!(include_str!("shaders/march.wgsl"), include_str!("shaders/amp.wgsl"));
 
 /// The shader's functions: S and its slope along a direction.
-fn module(tape: &Tape) -> Result<Module, Unsupported> {
+pub(crate) fn module(tape: &Tape) -> Result<Module, Unsupported> {
     let mut module = Module::new(Rounding::Nearest);
     module.function("value", tape, Numbers::Plain)?;
     module.function("slope", &tape.slope(), Numbers::Plain)?;
@@ -151,10 +151,10 @@ struct March<'a> {
     range: [f64; 2],
 }
 
-/// The shader's `Settings`.
+/// The shader's `March`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-struct SentSettings {
+pub(crate) struct SentMarch {
     step: f32,
     tau1: f32,
     tau2: f32,
@@ -164,8 +164,38 @@ struct SentSettings {
     distance_adaptation: u32,
     silhouette_adaptation: u32,
     test: u32,
+    unused: [u32; 3],
+}
+
+impl SentMarch {
+    pub(crate) fn new(settings: &Settings) -> Self {
+        let Settings { step, tau1, tau2, tau3, epsilon, .. } = *settings;
+        let [step, tau1, tau2, tau3, epsilon] = [step, tau1, tau2, tau3, epsilon].map(|x| x as f32);
+        Self {
+            step,
+            tau1,
+            tau2,
+            tau3,
+            epsilon,
+            bisections: settings.bisections,
+            distance_adaptation: (settings.distance_adaptation == Adaptation::On).into(),
+            silhouette_adaptation: (settings.silhouette_adaptation == Adaptation::On).into(),
+            test: match settings.test {
+                RootTest::Sign => 0,
+                _ => 1,
+            },
+            unused: [0; 3],
+        }
+    }
+}
+
+/// The shader's `Settings`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+struct SentSettings {
+    march: SentMarch,
     rays: u32,
-    unused: [u32; 2],
+    unused: [u32; 3],
 }
 
 /// The shader's `Segment`.
@@ -214,24 +244,7 @@ impl Traffic for March<'_> {
     }
 
     fn settings(&self, rays: u32) -> SentSettings {
-        let Settings { step, tau1, tau2, tau3, epsilon, .. } = self.settings;
-        let [step, tau1, tau2, tau3, epsilon] = [step, tau1, tau2, tau3, epsilon].map(|x| x as f32);
-        SentSettings {
-            step,
-            tau1,
-            tau2,
-            tau3,
-            epsilon,
-            bisections: self.settings.bisections,
-            distance_adaptation: (self.settings.distance_adaptation == Adaptation::On).into(),
-            silhouette_adaptation: (self.settings.silhouette_adaptation == Adaptation::On).into(),
-            test: match self.settings.test {
-                RootTest::Sign => 0,
-                _ => 1,
-            },
-            rays,
-            unused: [0; 2],
-        }
+        SentSettings { march: SentMarch::new(&self.settings), rays, unused: [0; 3] }
     }
 
     fn reader(&self) {}

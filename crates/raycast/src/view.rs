@@ -109,6 +109,11 @@ impl View {
         Ray::new(to_single(origin), to_single(direction.normalize()))
     }
 
+    /// Half the image's height in space: at distance 1 in perspective.
+    pub fn extent(&self) -> f64 {
+        self.extent
+    }
+
     /// The width in space of a pixel at distance `t` from the eye, along the view's middle; towards
     /// the edges of a perspective view it is less.
     pub fn footprint(&self, t: f64) -> f64 {

@@ -28,6 +28,23 @@ impl Picture {
         Ok(Self { width, height, pixels, description: String::new(), legend: None })
     }
 
+    /// A picture of the given pixels.
+    ///
+    /// # Errors
+    /// If there are not `width` times `height`, or none.
+    pub fn from_pixels(
+        width: usize,
+        height: usize,
+        pixels: Vec<[u8; 3]>,
+    ) -> Result<Self, ShadeError> {
+        let wanted = count(width, height)?;
+        if pixels.len() != wanted {
+            let got = pixels.len();
+            return Err(ShadeError::Count { what: "colours", got, width, height });
+        }
+        Ok(Self { width, height, pixels, description: String::new(), legend: None })
+    }
+
     /// The picture of a view, pixel by pixel; `paint` gets the pixel's index.
     pub(crate) fn painted(
         view: &View,

@@ -36,6 +36,28 @@ pub fn lights(view: &View) -> Vec<Light> {
     ]
 }
 
+/// The linear colours of a surface's sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Palette {
+    /// The side that the gradient points out of.
+    pub front: Vec3,
+    /// The other.
+    pub back: Vec3,
+}
+
+/// Ivory and a cool blue.
+pub fn palette() -> Palette {
+    let (front, back) = (Colour::oklch(0.91, 0.045, 80.0), Colour::oklch(0.80, 0.065, 245.0));
+    Palette { front: front.0, back: back.0 }
+}
+
+/// The bytes of a shaded picture's background, one colour a row: a soft ramp of greys.
+pub fn background(height: usize) -> Vec<[u8; 3]> {
+    let last = height.max(2) - 1;
+    let grey = |row| Colour::oklch(0.95 - 0.11 * row as f32 / last as f32, 0.006, 260.0);
+    (0..height).map(|row| grey(row).bytes()).collect()
+}
+
 /// The surface under lights, by Lambert's law on both sides:
 /// colour (ambient + sum of strength max(n.l, 0)), with n facing the eye.
 ///
@@ -53,10 +75,9 @@ pub fn picture(view: &View, hits: &Hits, lights: &[Light]) -> Result<Picture, Sh
     }
     let up = view.camera.frame()[1].as_vec3();
     let directions: Vec<Vec3> = lights.iter().map(|l| l.direction.normalize_or_zero()).collect();
-    let front = Colour::oklch(0.91, 0.045, 80.0).0;
-    let back = Colour::oklch(0.80, 0.065, 245.0).0;
+    let Palette { front, back } = palette();
     let none = Colour::oklch(0.55, 0.0, 0.0).bytes();
-    let background = Background::new(view);
+    let background = background(view.height);
 
     let mut description = String::from("Lambert shading; ivory where the gradient faces the eye");
     if lights.iter().any(|l| !l.blocked.is_empty()) {
@@ -69,7 +90,7 @@ pub fn picture(view: &View, hits: &Hits, lights: &[Light]) -> Result<Picture, Sh
     let legend = Legend { scale: None, keys };
     Picture::painted(view, description, Some(legend), |i| {
         if !hits.certificate[i].is_hit() {
-            return background.at(i / view.width);
+            return background[i / view.width];
         }
         let Some(seen) = seen(view, i, hits.normal[i]) else { return none };
         let mut light = 0.08 + 0.05 * seen.normal.dot(up);
@@ -81,21 +102,4 @@ pub fn picture(view: &View, hits: &Hits, lights: &[Light]) -> Result<Picture, Sh
         let colour = if seen.side == Side::Front { front } else { back };
         Colour(light * colour).bytes()
     })
-}
-
-/// A soft ramp of greys, one a row.
-struct Background {
-    rows: Vec<[u8; 3]>,
-}
-
-impl Background {
-    fn new(view: &View) -> Self {
-        let last = view.height.max(2) - 1;
-        let grey = |row| Colour::oklch(0.95 - 0.11 * row as f32 / last as f32, 0.006, 260.0);
-        Self { rows: (0..view.height).map(|row| grey(row).bytes()).collect() }
-    }
-
-    fn at(&self, row: usize) -> [u8; 3] {
-        self.rows[row]
-    }
 }

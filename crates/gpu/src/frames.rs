@@ -1,0 +1,249 @@
+//! Frames that stay on the device.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec3, Vec3};
+use zeroset_cpu::Implicit;
+use zeroset_cpu::amp::Settings;
+use zeroset_expr::Parameters;
+use zeroset_raycast::{Error, Method, Progress, Projection, Scene, View};
+
+use crate::amp::{AmpGpu, SentMarch, module};
+use crate::compiled::Compiled;
+use crate::device::{AsBinding, Buffer, DeviceError};
+
+const KERNEL: &str =
+    concat!(include_str!("shaders/march.wgsl"), include_str!("shaders/frame.wgsl"));
+
+/// Lights of a frame at most.
+pub const MOST_LIGHTS: usize = 8;
+
+/// Are shadow rays cast?
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shadows {
+    /// None.
+    #[default]
+    Off,
+    /// One from each hit to each light that it faces.
+    On,
+}
+
+/// What a frame looks like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look<'a> {
+    /// Unit vectors towards lights at infinity, and what a white surface that faces them reflects.
+    pub lights: &'a [(Vec3, f32)],
+    /// Are shadow rays cast?
+    pub shadows: Shadows,
+    /// The linear colour of the side that the gradient points out of.
+    pub front: Vec3,
+    /// The linear colour of the other side.
+    pub back: Vec3,
+    /// The background's bytes, encoded as sRGB: one colour a row.
+    pub background: &'a [[u8; 3]],
+}
+
+/// Shaded frames by adaptive marching points, made on the device from the camera to the image
+/// (Algorithm 2 of [singh2010]): for animations, and for times as the paper has them.
+///
+/// Rays are made in single precision, so a frame is a picture, not a set of answers: for those, and for
+/// cameras farther away than single precision resolves, cast with [`AmpGpu`]. Surfaces are lit on both
+/// sides by Lambert's law, with a little ambient light from above.
+pub struct Frames {
+    method: AmpGpu,
+    implicit: Implicit,
+    published_step: Option<f64>,
+    settings: Settings,
+    compiled: Compiled,
+    canvas: Option<Canvas>,
+}
+
+/// The buffers of an image's size.
+struct Canvas {
+    size: [usize; 2],
+    settings: Buffer<SentSettings>,
+    background: Buffer<u32>,
+    image: Buffer<u32>,
+}
+
+/// The shader's `Settings`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+struct SentSettings {
+    march: SentMarch,
+    eye: [f32; 4],
+    forward: [f32; 4],
+    right: [f32; 4],
+    up: [f32; 4],
+    low: [f32; 4],
+    high: [f32; 4],
+    front: [f32; 4],
+    back: [f32; 4],
+    size: [u32; 2],
+    rows: [u32; 2],
+    lights: u32,
+    shadows: u32,
+    unused: [u32; 2],
+    light: [[f32; 4]; MOST_LIGHTS],
+}
+
+/// Pixels along the side of a workgroup's tile.
+const TILE: usize = 8;
+/// Pixels of the first band of rows.
+const FIRST_BAND: usize = 1 << 20;
+/// A band should take no longer: drivers reset a device that hangs, and one may want to stop.
+const BAND_TIME: Duration = Duration::from_millis(300);
+
+impl Frames {
+    /// Compiles the march and the light for a scene.
+    ///
+    /// # Errors
+    /// If the scene is unsupported, or there is no device.
+    pub fn new(method: &AmpGpu, scene: &Scene) -> Result<Self, Error> {
+        let implicit = Implicit::new(method.id(), scene)?;
+        let published_step = scene.published_step;
+        let settings = Settings::new(&method.amp, &implicit, published_step)?;
+        let compiled = Compiled::new(&method.device, &module(&implicit.tape)?, KERNEL)?;
+        let method = method.clone();
+        Ok(Self { method, implicit, published_step, settings, compiled, canvas: None })
+    }
+
+    /// New values for the equation's parameters; the shader stays as it is.
+    ///
+    /// # Errors
+    /// As [`Intersector::set_parameters`](zeroset_raycast::Intersector::set_parameters).
+    pub fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
+        let mut implicit = self.implicit.clone();
+        implicit.set_parameters(values)?;
+        let settings = Settings::new(&self.method.amp, &implicit, self.published_step)?;
+        self.compiled.update(&module(&implicit.tape)?, KERNEL)?;
+        (self.settings, self.implicit) = (settings, implicit);
+        Ok(())
+    }
+
+    /// Draws a frame, which stays on the device; gives the device's time, if it measures any.
+    ///
+    /// # Errors
+    /// If there are more than [`MOST_LIGHTS`] lights, the image is larger than a buffer may be, the
+    /// device fails, or the work was asked to stop.
+    ///
+    /// # Panics
+    /// If the background has not one colour a row.
+    pub fn draw(
+        &mut self,
+        view: &View,
+        look: &Look<'_>,
+        progress: &Progress,
+    ) -> Result<Option<Duration>, Error> {
+        assert_eq!(look.background.len(), view.height, "one colour a row");
+        if look.lights.len() > MOST_LIGHTS {
+            let count = look.lights.len();
+            return Err(Error::Device(format!("{count} lights; a frame takes {MOST_LIGHTS}")));
+        }
+        if self.compiled.device.is_lost() {
+            self.compiled.update(&module(&self.implicit.tape)?, KERNEL)?;
+            self.canvas = None;
+        }
+        let device = Arc::clone(&self.compiled.device);
+        let size = [view.width, view.height];
+        if self.canvas.as_ref().is_none_or(|canvas| canvas.size != size) {
+            self.canvas = Some(self.canvas(size)?);
+        }
+        let canvas = self.canvas.as_ref().expect("made above");
+        let background: Vec<u32> =
+            look.background.iter().map(|[r, g, b]| u32::from_le_bytes([*r, *g, *b, 255])).collect();
+        device.write(&canvas.background, &background)?;
+        let columns = view.width.div_ceil(TILE);
+        let mut sent = self.sent(view, look);
+        let mut rows = (FIRST_BAND / view.width).max(TILE).next_multiple_of(TILE);
+        let (mut row, mut total) = (0, None);
+        while row < view.height {
+            let end = (row + rows).min(view.height);
+            sent.rows = [row, end].map(|row| row as u32);
+            device.write(&canvas.settings, &[sent])?;
+            let bound: [&dyn AsBinding; 4] =
+                [&self.compiled.constants, &canvas.settings, &canvas.background, &canvas.image];
+            let tiles = columns * (end - row).div_ceil(TILE);
+            let start = std::time::Instant::now();
+            let time = device.run(&self.compiled.kernel, &bound, tiles * TILE * TILE)?;
+            total = time.map(|time| time + total.unwrap_or_default());
+            if start.elapsed() > BAND_TIME {
+                rows = (rows / 2).max(TILE).next_multiple_of(TILE);
+            }
+            progress.advance((end - row) * view.width)?;
+            row = end;
+        }
+        Ok(total)
+    }
+
+    /// Reads the last frame: bytes encoded as sRGB, row by row from the top.
+    ///
+    /// # Errors
+    /// If none was drawn, or the device fails.
+    pub fn pixels(&self) -> Result<Vec<[u8; 3]>, Error> {
+        let none = || Error::Device("no frame was drawn".into());
+        let canvas = self.canvas.as_ref().ok_or_else(none)?;
+        let pixels = self.compiled.device.read(&canvas.image, canvas.image.len())?;
+        let bytes = |pixel: u32| {
+            let [r, g, b, _] = pixel.to_le_bytes();
+            [r, g, b]
+        };
+        Ok(pixels.into_iter().map(bytes).collect())
+    }
+
+    fn canvas(&self, size: [usize; 2]) -> Result<Canvas, Error> {
+        let [width, height] = size;
+        let device = &self.compiled.device;
+        let bytes = (width * height * size_of::<u32>()) as u64;
+        let largest = device.largest_binding();
+        if bytes > largest {
+            return Err(DeviceError::Invalid(
+                device.report().name.clone(),
+                format!(
+                    "an image of {width}x{height} pixels takes {} MiB, a buffer at most {}: draw it \
+                     without keeping it on the device",
+                    bytes >> 20,
+                    largest >> 20
+                ),
+            )
+            .into());
+        }
+        let (settings, image) = (device.uniform(1)?, device.storage(width * height)?);
+        Ok(Canvas { size, settings, background: device.storage(height)?, image })
+    }
+
+    fn sent(&self, view: &View, look: &Look<'_>) -> SentSettings {
+        let with = |v: DVec3, w: f64| [v.x, v.y, v.z, w].map(|x| x as f32);
+        let [right, up, forward] = view.camera.frame();
+        let extent = view.extent();
+        let perspective = match view.camera.projection {
+            Projection::Perspective { .. } => 1.0,
+            Projection::Orthographic { .. } => 0.0,
+        };
+        let domain = &self.implicit.domain;
+        let mut light = [[0.0; 4]; MOST_LIGHTS];
+        for (sent, (direction, strength)) in light.iter_mut().zip(look.lights) {
+            *sent = with(direction.as_dvec3(), (*strength).into());
+        }
+        SentSettings {
+            march: SentMarch::new(&self.settings),
+            eye: with(view.camera.eye, perspective),
+            forward: with(forward, 0.0),
+            right: with(extent * right, view.footprint(1.0)),
+            up: with(extent * up, 0.0),
+            low: with(domain.min, domain.ball.unwrap_or(0.0)),
+            high: with(domain.max, domain.longest_side()),
+            front: with(look.front.as_dvec3(), 0.0),
+            back: with(look.back.as_dvec3(), 0.0),
+            size: [view.width as u32, view.height as u32],
+            rows: [0; 2],
+            lights: look.lights.len() as u32,
+            shadows: (look.shadows == Shadows::On).into(),
+            unused: [0; 2],
+            light,
+        }
+    }
+}
+

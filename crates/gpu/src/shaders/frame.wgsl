@@ -1,0 +1,166 @@
+// A frame that stays on the device: rays of the camera, the march, shadow rays, Lambert's law, the image.
+
+struct Settings {
+    march: March,
+    // w: 1 in perspective, 0 for parallel rays.
+    eye: vec4f,
+    forward: vec4f,
+    // Half the image's height in space, at distance 1 in perspective. w: a pixel's width there.
+    right: vec4f,
+    up: vec4f,
+    // The domain's box; w: the radius of the ball around its centre, or 0; the longest side.
+    low: vec4f,
+    high: vec4f,
+    // Linear colours of the side that the gradient points out of, and of the other.
+    front: vec4f,
+    back: vec4f,
+    width: u32,
+    height: u32,
+    first_row: u32,
+    last_row: u32,
+    lights: u32,
+    // 1 for on.
+    shadows: u32,
+    unused3: u32,
+    unused4: u32,
+    // Unit vectors towards lights; w: strength.
+    light: array<vec4f, 8>,
+}
+
+@group(0) @binding(1) var<uniform> settings: Settings;
+// The background's colour by row, as bytes.
+@group(0) @binding(2) var<storage, read> background: array<u32>;
+@group(0) @binding(3) var<storage, read_write> image: array<u32>;
+
+// Where a line is in the domain: empty if y < x.
+fn clip(origin: vec3f, direction: vec3f) -> vec2f {
+    var range = vec2f(0.0, 3.0e38);
+    for (var axis = 0u; axis < 3u; axis++) {
+        let o = origin[axis];
+        let d = direction[axis];
+        if d == 0.0 {
+            if o < settings.low[axis] || o > settings.high[axis] {
+                return vec2f(1.0, 0.0);
+            }
+        } else {
+            let a = (settings.low[axis] - o) / d;
+            let b = (settings.high[axis] - o) / d;
+            range = vec2f(max(range.x, min(a, b)), min(range.y, max(a, b)));
+        }
+    }
+    let radius = settings.low.w;
+    if radius > 0.0 {
+        // From the point of the line that is nearest to the centre.
+        let centre = 0.5 * (settings.low.xyz + settings.high.xyz);
+        let middle = dot(centre - origin, direction);
+        let off = origin + middle * direction - centre;
+        let square = radius * radius - dot(off, off);
+        if square < 0.0 {
+            return vec2f(1.0, 0.0);
+        }
+        let half = sqrt(square);
+        range = vec2f(max(range.x, middle - half), min(range.y, middle + half));
+    }
+    return range;
+}
+
+// The part of a line in the domain; no length if there is none.
+fn segment_of(origin: vec3f, direction: vec3f) -> Segment {
+    let range = clip(origin, direction);
+    var segment: Segment;
+    segment.start = origin + range.x * direction;
+    segment.direction = direction;
+    segment.length = range.y - range.x;
+    return segment;
+}
+
+fn gradient(p: vec3f) -> vec3f {
+    return vec3f(
+        slope(p.x, p.y, p.z, 1.0, 0.0, 0.0),
+        slope(p.x, p.y, p.z, 0.0, 1.0, 0.0),
+        slope(p.x, p.y, p.z, 0.0, 0.0, 1.0),
+    );
+}
+
+// A linear colour as sRGB bytes.
+fn bytes(colour: vec3f) -> u32 {
+    let c = clamp(colour, vec3f(0.0), vec3f(1.0));
+    let curve = 1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055;
+    let encoded = select(curve, 12.92 * c, c <= vec3f(0.0031308));
+    let b = vec3u(floor(255.0 * encoded + 0.5));
+    return b.x | b.y << 8u | b.z << 16u | 0xff000000u;
+}
+
+// By the longest component first, so that squares neither overflow nor vanish.
+fn unit(v: vec3f) -> vec3f {
+    let size = max(abs(v.x), max(abs(v.y), abs(v.z)));
+    return normalize(v / size);
+}
+
+fn shade(direction: vec3f, p: vec3f, width: f32, distance: f32) -> u32 {
+    let slope = gradient(p);
+    let size = max(abs(slope.x), max(abs(slope.y), abs(slope.z)));
+    if !(is_finite(size) && size > 0.0) {
+        return bytes(vec3f(0.166375));
+    }
+    var normal = unit(slope);
+    var colour = settings.front.xyz;
+    if dot(normal, direction) > 0.0 {
+        normal = -normal;
+        colour = settings.back.xyz;
+    }
+    let side = settings.high.w;
+    let footprint = settings.right.w * mix(1.0, distance, settings.eye.w);
+    let offset = min(max(8.0 * width, min(2.0 * footprint, side / 256.0)), side / 8.0);
+    var light = 0.08 + 0.05 * dot(normal, normalize(settings.up.xyz));
+    for (var i = 0u; i < settings.lights; i++) {
+        let source = settings.light[i];
+        let facing = dot(normal, source.xyz);
+        if facing > 0.0 {
+            var reaches = true;
+            if settings.shadows == 1u {
+                // Whether there is a root is enough: no bisections (Section 4.2).
+                let segment = segment_of(p + offset * normal, source.xyz);
+                reaches = !(segment.length > 0.0 && march(segment, 0u).found == 1u);
+            }
+            light += select(0.0, source.w * facing, reaches);
+        }
+    }
+    return bytes(light * colour);
+}
+
+@compute @workgroup_size(64)
+fn main(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) local: u32,
+) {
+    // Eight by eight pixels a workgroup, so that rays side by side march together.
+    let tile = group.y * groups.x + group.x;
+    let columns = (settings.width + 7u) / 8u;
+    let x = tile % columns * 8u + local % 8u;
+    let y = settings.first_row + tile / columns * 8u + local / 8u;
+    if x >= settings.width || y >= settings.last_row {
+        return;
+    }
+    let half = 0.5 * f32(settings.height);
+    let u = (f32(x) + 0.5 - 0.5 * f32(settings.width)) / half;
+    let v = (half - f32(y) - 0.5) / half;
+    let offset = u * settings.right.xyz + v * settings.up.xyz;
+    let perspective = settings.eye.w;
+    let origin = settings.eye.xyz + (1.0 - perspective) * offset;
+    let direction = normalize(settings.forward.xyz + perspective * offset);
+
+    var colour = background[y];
+    let segment = segment_of(origin, direction);
+    if segment.length > 0.0 {
+        let answer = march(segment, settings.march.bisections);
+        if answer.found == 1u {
+            let s = 0.5 * (answer.bracket.x + answer.bracket.y);
+            let p = segment.start + s * direction;
+            let width = answer.bracket.y - answer.bracket.x;
+            colour = shade(direction, p, width, length(p - origin));
+        }
+    }
+    image[y * settings.width + x] = colour;
+}
