@@ -25,14 +25,13 @@ pub(crate) fn march(method: &dyn Method, view: ViewKind) -> Result<AmpGpu, Failu
         )));
     }
     let tests = [RootTest::Sign, RootTest::Taylor];
-    let mut march = tests
-        .map(AmpGpu::new)
-        .into_iter()
-        .find(|march| march.id() == method.id())
-        .ok_or_else(|| {
-            let ids = tests.map(|test| AmpGpu::new(test).id()).join(" or ");
-            Failure::usage(format!("--resident is for --method {ids}, not {}", method.id()))
-        })?;
+    let mut march =
+        tests.map(AmpGpu::new).into_iter().find(|march| march.id() == method.id()).ok_or_else(
+            || {
+                let ids = tests.map(|test| AmpGpu::new(test).id()).join(" or ");
+                Failure::usage(format!("--resident is for --method {ids}, not {}", method.id()))
+            },
+        )?;
     for knob in method.knobs() {
         march.set(knob.name, &knob.value).map_err(Failure::usage)?;
     }
@@ -159,9 +158,8 @@ impl Resident<'_> {
                 || "the device has no clock".into(),
                 |times| format!("on the device {}", spread(&times)),
             );
-            let of = |part: fn(&Times) -> Duration| {
-                spread(&times.iter().map(part).collect::<Vec<_>>())
-            };
+            let of =
+                |part: fn(&Times) -> Duration| spread(&times.iter().map(part).collect::<Vec<_>>());
             facts.push(format!(
                 "{} frames: {device}; with set-up {}; read back {}",
                 times.len(),

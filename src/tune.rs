@@ -88,11 +88,7 @@ impl Tune {
             format!("--set {id}.step={} --set {id}.tau1={}", short(trial.step), short(trial.tau1))
         };
         if let Some(best) = tune::recommended(trials, self.miss_rate) {
-            return format!(
-                "For a miss rate of at most {:?}:\n  {}\n",
-                self.miss_rate,
-                set(best)
-            );
+            return format!("For a miss rate of at most {:?}:\n  {}\n", self.miss_rate, set(best));
         }
         let rates = trials.iter().map(Trial::error_rate);
         let least = rates.fold(f64::INFINITY, f64::min);
@@ -143,7 +139,17 @@ fn measure(
 fn table(trials: &[Trial]) -> String {
     let mut table = Table::new();
     table.load_preset(presets::NOTHING);
-    table.set_header(["", "step", "tau1", "lost", "false hits", "miss rate", "values a ray", "gradients a ray", "ms"]);
+    table.set_header([
+        "",
+        "step",
+        "tau1",
+        "lost",
+        "false hits",
+        "miss rate",
+        "values a ray",
+        "gradients a ray",
+        "ms",
+    ]);
     for trial in trials {
         let a_ray = |n: u64| short(n as f64 / trial.judged.max(1) as f64);
         table.add_row([

@@ -1,7 +1,8 @@
 //! Every method of the registry agrees with the reference, on every surface of the catalogue.
 //!
 //! On a small view and on rays that find faults: no certificate contradicts the reference; methods that
-//! search whole rays miss no transversal hit; and an answer depends on its ray alone.
+//! search whole rays miss no transversal hit; and an answer depends on its ray alone. Methods that can
+//! certify their hits are asked a second time, to do so: most hits of the view are then proven.
 
 mod rays;
 
@@ -9,7 +10,7 @@ use zeroset_bench::{Class, Oracle, Registry, Sample, Tolerance, Truths, judge, t
 use zeroset_expr::Parameters;
 use zeroset_raycast::catalogue::{Catalogue, Surface};
 use zeroset_raycast::{
-    Camera, Geometry, Hit, Hits, Intersector, Progress, RayBatch, Rays, Request, View,
+    Camera, Certificate, Geometry, Hit, Hits, Intersector, Progress, RayBatch, Rays, Request, View,
 };
 
 /// Pixels along a side of the view.
@@ -37,6 +38,8 @@ struct Tally {
     rays: usize,
     decided: usize,
     crossings: usize,
+    /// Hits of methods that certify, and those of them that are proven.
+    certified: [usize; 2],
 }
 
 impl Tally {
@@ -100,14 +103,21 @@ fn check(surface: &Surface, registry: &Registry) -> Tally {
     let known = truths(&oracle, Rays::Batch(&batch));
 
     let mut tally = Tally::default();
-    for method in registry.iter().filter(|method| method.supports(&scene).is_ok()) {
+    let certified = registry.certified();
+    let all = registry.iter().chain(certified.iter().map(AsRef::as_ref));
+    for (k, method) in all.enumerate().filter(|(_, method)| method.supports(&scene).is_ok()) {
         let intersector = method.prepare(&scene).expect("what is supported can be prepared");
         let finds = SEARCHERS.contains(&method.id());
+        let certifies = k >= registry.iter().count();
         for (rays, truths) in [(Rays::View(&view), &seen), (Rays::Batch(&batch), &known)] {
             let place = format!("{} on {}", method.id(), scene.id);
             let hits = ask(intersector.as_ref(), rays);
             tally.judge(&place, rays, &hits, truths, finds);
             tally.regroup(&place, intersector.as_ref(), rays, &hits);
+            for certificate in hits.certificate.iter().filter(|c| certifies && c.is_hit()) {
+                tally.certified[0] += 1;
+                tally.certified[1] += usize::from(certificate.contains(Certificate::ROOT));
+            }
         }
     }
     tally
@@ -123,16 +133,20 @@ fn methods_agree_with_the_reference() {
         total.rays += tally.rays;
         total.decided += tally.decided;
         total.crossings += tally.crossings;
+        total.certified = [0, 1].map(|i| total.certified[i] + tally.certified[i]);
         total.faults.extend(tally.faults);
     }
-    let Tally { faults, rays, decided, crossings } = total;
+    let Tally { faults, rays, decided, crossings, certified: [hits, proven] } = total;
     assert!(
         faults.is_empty(),
         "{} faults:\n{}",
         faults.len(),
         faults[..faults.len().min(40)].join("\n")
     );
-    println!("{rays} answers, {decided} decided, {crossings} crossings");
+    println!(
+        "{rays} answers, {decided} decided, {crossings} crossings; {proven} of {hits} certified"
+    );
     assert!(100 * decided > 95 * rays, "{decided} of {rays} answers could be judged");
     assert!(4 * crossings > rays, "{crossings} of {rays} rays cross a surface");
+    assert!(4 * proven > 3 * hits, "{proven} of {hits} hits could be certified");
 }

@@ -74,7 +74,9 @@ fn check(scene: &Scene, shape: &Shape, rays: Vec<Ray>) -> Count {
         .map(|method| Bisection { arithmetic: Arithmetic::Double, ..method });
     let double = double.iter().map(|method| method as &dyn Method);
     let registry = Registry::standard();
-    let methods = registry.iter().chain(double);
+    let certified = registry.certified();
+    let certified = certified.iter().map(AsRef::as_ref);
+    let methods = registry.iter().chain(double).chain(certified);
     for method in methods.filter(|method| method.supports(scene).is_ok()) {
         let hits = ask(method, scene, rays);
         for (i, truth) in truths.iter().enumerate() {

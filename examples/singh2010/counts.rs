@@ -119,8 +119,7 @@ fn signs<S: Scalar>(tape: &Tape, points: &[[f64; 3]]) -> Vec<i8> {
 /// False roots of the Chebyshev surfaces by form, order and precision (Section 4.7).
 pub(crate) fn chebyshev(side: usize) -> Result<(), Failure> {
     const ORDERS: [u32; 6] = [8, 14, 18, 22, 30, 50];
-    const FORMS: [(&str, &str); 3] =
-        [("Tpow", "powers"), ("T", "recurrence"), ("Tcos", "cosines")];
+    const FORMS: [(&str, &str); 3] = [("Tpow", "powers"), ("T", "recurrence"), ("Tcos", "cosines")];
     let half = 1.0625;
     let domain = Domain::new(glam::DVec3::splat(-half), glam::DVec3::splat(half))?;
     let view = View::new(Camera::facing(&domain), side, side);
@@ -130,7 +129,9 @@ pub(crate) fn chebyshev(side: usize) -> Result<(), Failure> {
          roots are steps over which the computed sign changes and the exact one does not; lost roots \
          the reverse. Points are the same single precision numbers for all.\n"
     );
-    println!("| order | steps | exact roots | form | false, single | lost | false, double | lost |");
+    println!(
+        "| order | steps | exact roots | form | false, single | lost | false, double | lost |"
+    );
     println!("|---|---|---|---|---|---|---|---|");
     for n in ORDERS {
         let tapes: Vec<Tape> = FORMS
@@ -194,4 +195,3 @@ fn exact_sign(tape: &Tape, p: [f64; 3]) -> i8 {
     let [lo, hi] = value.to_f64();
     i8::from(lo > 0.0) - i8::from(hi < 0.0)
 }
-

@@ -196,10 +196,7 @@ pub(crate) fn fig_9(size: usize) -> Result<(), Failure> {
     }
     println!("\nThe grid for the octic: evaluations a ray, and rays lost.\n");
     let steps = [0.01, 0.02, 0.04, 0.08];
-    println!(
-        "| tau1 | {} |",
-        steps.map(|step| format!("step {step}")).join(" | ")
-    );
+    println!("| tau1 | {} |", steps.map(|step| format!("step {step}")).join(" | "));
     println!("|---|---|---|---|---|");
     for [tau1, _] in FIG_9_THRESHOLDS {
         let mut cells = Vec::new();

@@ -30,11 +30,7 @@ struct Cast {
     hits: Hits,
 }
 
-fn cast(
-    intersector: &dyn Intersector,
-    rays: Rays<'_>,
-    request: Request,
-) -> Result<Cast, Failure> {
+fn cast(intersector: &dyn Intersector, rays: Rays<'_>, request: Request) -> Result<Cast, Failure> {
     let mut hits = Hits::new(request, rays.len());
     let mut time = Duration::MAX;
     let mut work = Work::default();
@@ -75,7 +71,8 @@ fn wrong(method: &dyn Method, scene: &Scene) -> Result<[usize; 3], Failure> {
     let rays = Rays::View(&view);
     let sample = Sample::every(1, rays);
     let truths = truth::reference(scene)?;
-    let truths = zeroset::bench::Oracle::classify(&truths, rays, &sample.indices, &Progress::new())?;
+    let truths =
+        zeroset::bench::Oracle::classify(&truths, rays, &sample.indices, &Progress::new())?;
     let truths = Truths { sample, truths };
     let mut hits = Hits::new(Request::First, rays.len());
     method.prepare(scene)?.intersect(rays, &mut hits, &Progress::new())?;
@@ -118,7 +115,8 @@ pub(crate) fn table_1(size: usize) -> Result<(), Failure> {
         let [flops, calls] = counts::operations(&counts::tape(&scene)?);
         let values = frames[0].cast.work.points as f64 / (size * size) as f64;
         let [s, t] = [0, 1].map(|i| ms(frames[i].cast.time));
-        let with = [0, 1].map(|i| ms(frames[i].cast.time) / ms(frames[i].cast.time + frames[i].shadows));
+        let with =
+            [0, 1].map(|i| ms(frames[i].cast.time) / ms(frames[i].cast.time + frames[i].shadows));
         let [lost_s, false_s, _] = wrong(&sign, &scene)?;
         let [lost_t, false_t, _] = wrong(&taylor, &scene)?;
         println!(
@@ -249,7 +247,9 @@ pub(crate) fn table_2(size: usize) -> Result<(), Failure> {
 /// Table 3: the sign test on the CPU, with one thread and with all.
 pub(crate) fn table_3(size: usize) -> Result<(), Failure> {
     println!("\n## Table 3, {size}x{size}\n");
-    println!("| surface | paper, CPU ms | one thread | all threads | to ding-dong, paper | one thread |");
+    println!(
+        "| surface | paper, CPU ms | one thread | all threads | to ding-dong, paper | one thread |"
+    );
     println!("|{}", "---|".repeat(6));
     let mut first = None;
     for (i, [cpu, _]) in TABLE_3.iter().enumerate() {
@@ -257,7 +257,8 @@ pub(crate) fn table_3(size: usize) -> Result<(), Failure> {
         let view = View::new(Camera::facing(&scene.domain), size, size);
         let intersector = Amp::default().prepare(&scene)?;
         let one = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-        let timed = || cast(&*intersector, Rays::View(&view), Request::First).map_err(|e| e.to_string());
+        let timed =
+            || cast(&*intersector, Rays::View(&view), Request::First).map_err(|e| e.to_string());
         let single = ms(one.install(timed)?.time);
         let all = ms(timed()?.time);
         let base = *first.get_or_insert(single);
@@ -282,7 +283,9 @@ pub(crate) fn section_4_3(size: usize) -> Result<(), Failure> {
         "{}: {flops} operations a value with the 6 that make the point (the paper: over 75).\n",
         scene.id
     );
-    println!("| method | values a ray (paper 70) | operations a frame (paper 1.38e9) | ms | GFLOP/s |");
+    println!(
+        "| method | values a ray (paper 70) | operations a frame (paper 1.38e9) | ms | GFLOP/s |"
+    );
     println!("|---|---|---|---|---|");
     for method in twins(RootTest::Sign) {
         if let Err(why) = method.supports(&scene) {

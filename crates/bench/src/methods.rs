@@ -8,10 +8,12 @@ use zeroset_raycast::Method;
 pub fn methods() -> Vec<Box<dyn Method>> {
     vec![
         Box::new(zeroset_cpu::Amp::default()),
+        Box::new(zeroset_cpu::Amp::taylor()),
         Box::new(zeroset_cpu::Bisection::kmarch()),
         Box::new(zeroset_cpu::Bisection::tbisect()),
         Box::new(zeroset_cpu::Bisection::mitchell()),
         Box::new(zeroset_gpu::AmpGpu::default()),
+        Box::new(zeroset_gpu::AmpGpu::new(zeroset_cpu::RootTest::Taylor)),
         Box::new(zeroset_gpu::BisectionGpu::default()),
         Box::new(zeroset_cpu::Reference::default()),
     ]
@@ -60,6 +62,13 @@ impl Registry {
     /// Their ids in order.
     pub fn ids(&self) -> Vec<&'static str> {
         self.iter().map(Method::id).collect()
+    }
+
+    /// Copies of the methods that have the knob `certify`, with it on.
+    pub fn certified(&self) -> Vec<Box<dyn Method>> {
+        let mut copies: Vec<_> = self.iter().map(Method::boxed).collect();
+        copies.retain_mut(|method| method.set("certify", "on").is_ok());
+        copies
     }
 
     /// A copy of the method of that id.
@@ -135,6 +144,18 @@ mod tests {
         let registry = Registry::standard().with(first.boxed());
         assert_eq!(registry.ids().len(), count);
         assert_eq!(Registry::empty().with(first).ids().len(), 1);
+    }
+
+    #[test]
+    fn methods_that_can_certify_do() {
+        let certified = Registry::standard().certified();
+        assert_eq!(
+            certified.iter().map(|m| m.id()).collect::<Vec<_>>(),
+            ["amp-sign", "amp-taylor"]
+        );
+        for method in certified {
+            assert!(method.knobs().iter().any(|k| k.name == "certify" && k.value == "on"));
+        }
     }
 
     #[test]

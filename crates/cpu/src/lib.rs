@@ -2,7 +2,7 @@
 //!
 //! | method | source | proves |
 //! |---|---|---|
-//! | [`Amp`] | \[singh2010\] Algorithm 1 with the sign test | nothing |
+//! | [`Amp`] | \[singh2010\] Algorithm 1: `amp-sign`, `amp-taylor` | nothing, or roots with the knob `certify` |
 //! | [`Bisection`] | \[knoll2007\]: `kmarch`, `tbisect`, `mitchell` | first hits, roots, misses |
 //! | [`Reference`] | this project: slow, judged first | all it decides |
 

@@ -1,13 +1,14 @@
-//! `amp-sign` finds what its sampling can find, where it is, whatever the grouping of the rays.
+//! `amp-sign` and `amp-taylor` find what their sampling can find, where it is, whatever the grouping of
+//! the rays, and certify only what is a root.
 
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
-use zeroset_cpu::{Adaptation, Amp};
+use zeroset_cpu::{Adaptation, Amp, RootTest};
 use zeroset_expr::{Function, Parameters};
 use zeroset_ia::Isa;
 use zeroset_raycast::{
-    Camera, Certificate, Domain, Error, Hit, Hits, KnobError, Method, Progress, Projection, Ray,
-    RayBatch, Rays, Request, Scene, View,
+    Camera, Certificate, Certification, Domain, Error, Hit, Hits, KnobError, Method, Progress,
+    Projection, Ray, RayBatch, Rays, Request, Scene, View,
 };
 
 fn cube(half: f64) -> Domain {
@@ -34,6 +35,16 @@ fn ray(origin: [f32; 3], direction: [f32; 3]) -> Ray {
     Ray::new(Vec3::from(origin), Vec3::from(direction))
 }
 
+/// With both root tests.
+fn both(method: &Amp) -> [Amp; 2] {
+    [RootTest::Sign, RootTest::Taylor].map(|test| Amp { test, ..method.clone() })
+}
+
+/// With both root tests, hits certified.
+fn certifying() -> [Amp; 2] {
+    both(&Amp { certify: Certification::On, ..Amp::default() })
+}
+
 /// Thresholds in units of f itself.
 fn unscaled() -> Amp {
     Amp { scale: Some(1.0), ..Amp::default() }
@@ -56,11 +67,17 @@ const SPHERE: &str = "x^2+y^2+z^2-1";
 fn brackets_hold_the_first_root_of_a_sphere() {
     let scene = scene(SPHERE, 1.25);
     let view = View::new(Camera::facing(&scene.domain), 96, 64);
-    let hits = cast(&Amp::default(), &scene, Rays::View(&view), Request::FirstWithNormal);
+    for method in both(&Amp::default()) {
+        brackets_hold_the_first_root(&method, &scene, &view);
+    }
+}
+
+fn brackets_hold_the_first_root(method: &Amp, scene: &Scene, view: &View) {
+    let hits = cast(method, scene, Rays::View(view), Request::FirstWithNormal);
     let longest = 2.0 * 2.5 * 1.25 * 3.0_f64.sqrt() / 240.0;
     let mut found = 0;
     for i in 0..hits.len() {
-        let ray = Rays::View(&view).get(i);
+        let ray = Rays::View(view).get(i);
         let Hit { bracket: [lo, hi], certificate, .. } = hits.get(i);
         match sphere_roots(ray) {
             None => assert_eq!(certificate, Certificate::MISS),
@@ -250,6 +267,139 @@ fn double_roots_are_missed_unless_offset() {
 }
 
 #[test]
+fn the_taylor_test_finds_double_roots() {
+    let view = View::new(Camera::facing(&cube(1.25)), 48, 48);
+    let rays = Rays::View(&view);
+    for (equation, within) in
+        [("(x^2+y^2+z^2-1)^2", 1e-4), ("(x^2+y^2+z^2)^2-2*(x^2+y^2+z^2)+1", 2e-2)]
+    {
+        let scene = scene(equation, 1.25);
+        let hits = cast(&Amp::taylor(), &scene, rays, Request::First);
+        assert!(hits.work.iter().all(|work| work.points == 0));
+        let mut found = 0;
+        for (i, hit) in (0..hits.len()).map(|i| (i, hits.get(i))) {
+            match sphere_roots(rays.get(i)) {
+                None => assert_eq!(hit.certificate, Certificate::MISS, "{equation}: {i}"),
+                // Near a silhouette both double roots are one.
+                Some([near, far]) if far - near < 0.2 => {}
+                Some([near, _]) => {
+                    found += 1;
+                    assert_eq!(hit.certificate, Certificate::HIT, "{equation}: {i}");
+                    assert!((hit.t() - near).abs() < within, "{equation}: {hit:?}, {near}");
+                }
+            }
+        }
+        assert!(found > 300, "{found}");
+    }
+}
+
+/// Past a silhouette the test holds for a step, and for none of its halves; behind it there is a root.
+#[test]
+fn a_step_that_bisection_refutes_does_not_end_the_march() {
+    let along = ray([-3.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+    for offset in ["1e-3", "1e-4", "1e-5"] {
+        let scene = scene(&format!("((x+0.3)^2+{offset})*(x-0.4)"), 1.0);
+        let method = Amp { step: Some(0.2), bisections: 20, ..Amp::taylor() };
+        let hit = answer(&method, &scene, along);
+        assert_eq!(hit.certificate, Certificate::HIT, "{offset}");
+        assert!((hit.t() - 3.4).abs() < 1e-4, "{offset}: {hit:?}");
+        // Without bisection nothing refutes the step.
+        let hit = answer(&Amp { bisections: 0, ..method }, &scene, along);
+        assert!(hit.bracket[1] < 3.0, "{offset}: {hit:?}");
+    }
+}
+
+/// Every step of a function of high frequency passes the Taylor test, and every bisection refutes it.
+#[test]
+fn a_march_that_is_always_refuted_ends() {
+    let scene = scene("2+sin(20000*x)", 1.0);
+    let method = Amp { step: Some(0.02), ..Amp::taylor() };
+    let hit = answer(&method, &scene, ray([-3.0, 0.1, 0.2], [1.0, 0.0, 0.0]));
+    let most = (8.0 * 3.0_f64.sqrt() / 0.02) as u64;
+    assert!((most..most + 20).contains(&hit.work.gradients), "{hit:?}");
+    assert_eq!(hit.certificate, Certificate::HIT);
+}
+
+#[test]
+fn certified_hits_hold_a_root_of_the_sphere() {
+    let scene = scene(SPHERE, 1.25);
+    let view = View::new(Camera::facing(&scene.domain), 64, 64);
+    let rays = Rays::View(&view);
+    for method in certifying() {
+        for bisections in [0, 10, 22] {
+            let plain = Amp { bisections, certify: Certification::Off, ..method.clone() };
+            let method = Amp { bisections, ..method.clone() };
+            let plain = cast(&plain, &scene, rays, Request::First);
+            let hits = cast(&method, &scene, rays, Request::First);
+            let [mut found, mut proven] = [0; 2];
+            for (i, hit) in (0..hits.len()).map(|i| (i, hits.get(i))) {
+                let before = plain.get(i);
+                assert_eq!(hit.certificate.is_hit(), before.certificate.is_hit());
+                assert!(!before.certificate.contains(Certificate::ROOT));
+                if !hit.certificate.is_hit() {
+                    assert_eq!(hit, before);
+                    continue;
+                }
+                found += 1;
+                if hit.certificate != Certificate::ROOT_HIT {
+                    assert_eq!((hit.certificate, hit.bracket), (Certificate::HIT, before.bracket));
+                    continue;
+                }
+                proven += 1;
+                let roots = sphere_roots(rays.get(i)).expect("a root was proven");
+                let [lo, hi] = hit.bracket;
+                // The roots are rounded here.
+                let holds = |root: f64| lo - 1e-14 <= root && root <= hi + 1e-14;
+                assert!(holds(roots[0]) || holds(roots[1]), "{hit:?}, {roots:?}");
+                assert!(lo >= before.bracket[0] - 2e-6 && hi <= before.bracket[1] + 2e-6);
+            }
+            assert!(100 * proven > 97 * found && found > 500, "{bisections}: {proven} of {found}");
+        }
+    }
+}
+
+/// A sample that is exactly zero gives a bracket of one point, at which there is no change of sign.
+#[test]
+fn brackets_of_one_point_are_widened_for_a_proof() {
+    let scene = scene("x", 1.0);
+    let along = ray([-3.0, 0.125, 0.25], [1.0, 0.0, 0.0]);
+    for method in certifying() {
+        let method = Amp { step: Some(0.125), ..method };
+        let plain = Amp { certify: Certification::Off, ..method.clone() };
+        let [lo, hi] = answer(&plain, &scene, along).bracket;
+        assert!(lo == hi && (lo - 3.0).abs() < 1e-14, "[{lo}, {hi}]");
+        let hit = answer(&method, &scene, along);
+        assert_eq!(hit.certificate, Certificate::ROOT_HIT);
+        assert!(hit.bracket[0] < 3.0 && 3.0 < hit.bracket[1], "{hit:?}");
+        assert!(hit.bracket[1] - hit.bracket[0] < 4e-6, "{hit:?}");
+        // Only as far as roots count.
+        let batch = RayBatch { rays: vec![along], range: [0.0, 3.0] };
+        let hit = cast(&method, &scene, Rays::Batch(&batch), Request::First).get(0);
+        assert_eq!(hit.certificate, Certificate::HIT);
+        assert!(hit.bracket[0] == hit.bracket[1], "{hit:?}");
+    }
+}
+
+/// A certificate is about f = 0, and a root of f - epsilon is none of f.
+#[test]
+fn a_moved_surface_is_not_taken_for_the_surface() {
+    let through = ray([3.0, 0.1, 0.2], [-1.0, 0.0, 0.0]);
+    for method in certifying() {
+        for (equation, epsilon) in [(SPHERE, 0.01), (SPHERE, -0.01), ("(x^2+y^2+z^2-1)^2", 0.01)] {
+            let method = Amp { epsilon, ..method.clone() };
+            let hit = answer(&method, &scene(equation, 1.25), through);
+            assert_eq!(hit.certificate, Certificate::HIT, "{equation} = {epsilon}");
+        }
+        // So little that the bracket holds both.
+        let method = Amp { epsilon: 1e-9, ..method };
+        let hit = answer(&method, &scene(SPHERE, 1.25), through);
+        assert_eq!(hit.certificate, Certificate::ROOT_HIT);
+        let [root, _] = sphere_roots(through).unwrap();
+        assert!(hit.bracket[0] <= root && root <= hit.bracket[1]);
+    }
+}
+
+#[test]
 fn poles_are_plain_hits_and_undefined_values_are_none() {
     let along = ray([-3.0, 0.1, 0.2], [1.0, 0.0, 0.0]);
     let pole = answer(&Amp::default(), &scene("1/(x-0.3)", 1.0), along);
@@ -301,6 +451,11 @@ fn only_roots_in_the_domain_and_range_count() {
 fn any_root_is_enough_for_a_shadow() {
     let scene = scene(SPHERE, 1.25);
     let view = View::new(Camera::facing(&scene.domain), 48, 48);
+    // The Taylor test needs its bisections: they refute steps without a root.
+    let taylor = |request| cast(&Amp::taylor(), &scene, Rays::View(&view), request);
+    let (any, first) = (taylor(Request::Any), taylor(Request::First));
+    assert_eq!((any.certificate, any.bracket), (first.certificate, first.bracket));
+
     let first = cast(&Amp::default(), &scene, Rays::View(&view), Request::First);
     let any = cast(&Amp::default(), &scene, Rays::View(&view), Request::Any);
     assert_eq!(any.certificate, first.certificate);
@@ -369,6 +524,7 @@ fn knobs_take_what_they_say_and_give_it_back() {
         ("distance_adaptation", "off"),
         ("silhouette_adaptation", "off"),
         ("isa", "portable"),
+        ("certify", "on"),
     ] {
         method.set(name, value).unwrap();
         let knob = method.knobs().into_iter().find(|k| k.name == name).unwrap();
@@ -397,6 +553,7 @@ fn knobs_take_what_they_say_and_give_it_back() {
         ("epsilon", "inf"),
         ("distance_adaptation", "yes"),
         ("isa", "mmx"),
+        ("certify", "yes"),
     ] {
         assert!(matches!(method.set(name, value), Err(KnobError::Value { .. })), "{name}={value}");
     }
@@ -459,15 +616,21 @@ fn answers_do_not_depend_on_grouping_threads_or_instruction_set() {
         camera.projection = Projection::Orthographic { height: 3.0 };
         let view = View::new(camera, 45, 37);
         let rays = Rays::View(&view);
-        let expected = cast(&Amp::default(), &scene, rays, Request::FirstWithNormal);
-        assert!(expected.certificate.iter().any(|c| c.is_hit()));
-        assert!(expected.certificate.iter().any(|c| !c.is_hit()));
+        let expected = certifying().map(|m| cast(&m, &scene, rays, Request::FirstWithNormal));
+        for expected in &expected {
+            assert!(expected.certificate.iter().any(|c| c.is_hit()));
+            assert!(expected.certificate.iter().any(|c| !c.is_hit()));
+        }
 
         // 677 is prime to 45 * 37.
         let order: Vec<usize> = (0..rays.len()).map(|i| i * 677 % rays.len()).collect();
         let batch = RayBatch::new(order.iter().map(|&i| rays.get(i)).collect());
-        for isa in Isa::available() {
-            let method = Amp { isa: Some(isa), ..Amp::default() };
+        let methods = certifying();
+        let methods = methods.iter().zip(&expected);
+        for (isa, (method, expected)) in
+            Isa::available().into_iter().flat_map(|isa| methods.clone().map(move |m| (isa, m)))
+        {
+            let method = Amp { isa: Some(isa), ..method.clone() };
             let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
             let hits = one_thread
                 .install(|| cast(&method, &scene, Rays::Batch(&batch), Request::FirstWithNormal));
@@ -491,11 +654,46 @@ proptest! {
         equation in prop::sample::select(&MIXED[..]),
     ) {
         let scene = scene(equation, 1.25);
-        let method = Amp { step: Some(0.1), ..Amp::default() };
         let rays: Vec<Ray> = rays.into_iter().map(|(o, d)| ray(o, d)).collect();
-        let together = cast(&method, &scene, Rays::Batch(&RayBatch::new(rays.clone())), Request::First);
-        for (i, &ray) in rays.iter().enumerate() {
-            prop_assert_eq!(together.get(i), answer(&method, &scene, ray));
+        let batch = RayBatch::new(rays.clone());
+        for method in certifying() {
+            let method = Amp { step: Some(0.1), ..method };
+            let together = cast(&method, &scene, Rays::Batch(&batch), Request::First);
+            for (i, &ray) in rays.iter().enumerate() {
+                prop_assert_eq!(together.get(i), answer(&method, &scene, ray));
+            }
+        }
+    }
+
+    /// At a pole or a jump the sign changes, and nothing is a root.
+    #[test]
+    fn poles_and_jumps_are_never_certified(
+        rays in prop::collection::vec(
+            (prop::array::uniform3(-3.0_f32..3.0), prop::array::uniform3(-1.0_f32..1.0)),
+            1..70,
+        ),
+        equation in prop::sample::select(&[
+            "1/(x-0.1)",
+            "(y^2+1)/(x-0.1)^3",
+            "1/(x^2+y^2+z^2-1)",
+            "sign(x-0.1)",
+            "floor(x-0.1)+0.5",
+            "1/(x-0.1)+sin(y)/2+1",
+        ][..]),
+        bisections in 0..25_u32,
+    ) {
+        let scene = scene(equation, 1.25);
+        let rays: Vec<Ray> = rays.into_iter().map(|(o, d)| ray(o, d)).collect();
+        let batch = RayBatch::new(rays.clone());
+        for method in certifying() {
+            let hits = cast(&Amp { bisections, ..method }, &scene, Rays::Batch(&batch), Request::First);
+            for (ray, hit) in rays.iter().zip((0..rays.len()).map(|i| hits.get(i))) {
+                // The last equation has roots too: there 1/(x-0.1) <= -1/2.
+                let [lo, hi] = hit.bracket.map(|t| ray.at(t).x);
+                let holds_the_pole = lo.min(hi) <= 0.1 && 0.1 <= lo.max(hi);
+                let has_root = equation.contains("sin") && !holds_the_pole;
+                prop_assert!(has_root || !hit.certificate.contains(Certificate::ROOT), "{hit:?}");
+            }
         }
     }
 }

@@ -8,8 +8,8 @@ use zeroset_cpu::{Implicit, Normals, normals};
 use zeroset_expr::{Parameters, Tape};
 use zeroset_ia::Rounding;
 use zeroset_raycast::{
-    Certificate, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray, Rays,
-    Report, Request, Scene, Unsupported, Work, knob,
+    Certificate, Certification, Certifier, Clip, Error, Hit, Hits, Intersector, Knob, KnobError,
+    Method, Progress, Ray, Rays, Report, Request, Scene, Unsupported, Work, knob,
 };
 
 use crate::chunks::{self, Job, Traffic};
@@ -46,16 +46,25 @@ pub fn shader(tape: &Tape) -> Result<String, Unsupported> {
     Ok(module(tape)?.shader(KERNEL))
 }
 
+impl AmpGpu {
+    /// The march with a root test, and the default knobs.
+    pub fn new(test: RootTest) -> Self {
+        Self { amp: Amp { test, ..Amp::default() }, device: Choice::Auto }
+    }
+}
+
 impl Method for AmpGpu {
     fn id(&self) -> &'static str {
         match self.amp.test {
-            _ => "amp-sign-gpu",
+            RootTest::Sign => "amp-sign-gpu",
+            RootTest::Taylor => "amp-taylor-gpu",
         }
     }
 
     fn summary(&self) -> &'static str {
         match self.amp.test {
-            _ => "amp-sign on the GPU [singh2010]",
+            RootTest::Sign => "amp-sign on the GPU [singh2010]",
+            RootTest::Taylor => "amp-taylor on the GPU [singh2010]",
         }
     }
 
@@ -124,8 +133,8 @@ impl Intersector for Prepared {
         progress: &Progress,
     ) -> Result<Report, Error> {
         let mut settings = self.settings;
-        if hits.request == Request::Any {
-            // Whether there is a root is known once a step holds one (Section 4.2).
+        if hits.request == Request::Any && self.method.amp.test == RootTest::Sign {
+            // As on the CPU: the Taylor test knows only when bisection has not refuted the step.
             settings.bisections = 0;
         }
         let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
@@ -137,7 +146,8 @@ impl Intersector for Prepared {
             kernel: &compiled.kernel,
             constants: &compiled.constants,
         };
-        let march = March { implicit: &self.implicit, settings, range: rays.range() };
+        let amp = &self.method.amp;
+        let march = March { amp, implicit: &self.implicit, settings, range: rays.range() };
         let mut report = chunks::cast(&job, &march, rays, hits, progress)?;
         report.work += normals::fill(&self.implicit.tape, Normals::Gradient, rays, hits);
         Ok(report)
@@ -146,9 +156,17 @@ impl Intersector for Prepared {
 
 /// The march as the device is told of it.
 struct March<'a> {
+    amp: &'a Amp,
     implicit: &'a Implicit,
     settings: Settings,
     range: [f64; 2],
+}
+
+/// A ray on its way.
+struct Marcher {
+    ray: Ray,
+    clip: Clip,
+    segment: Segment,
 }
 
 /// The shader's `March`.
@@ -164,11 +182,12 @@ pub(crate) struct SentMarch {
     distance_adaptation: u32,
     silhouette_adaptation: u32,
     test: u32,
-    unused: [u32; 3],
+    samples: u32,
+    unused: [u32; 2],
 }
 
 impl SentMarch {
-    pub(crate) fn new(settings: &Settings) -> Self {
+    pub(crate) fn new(test: RootTest, settings: &Settings) -> Self {
         let Settings { step, tau1, tau2, tau3, epsilon, .. } = *settings;
         let [step, tau1, tau2, tau3, epsilon] = [step, tau1, tau2, tau3, epsilon].map(|x| x as f32);
         Self {
@@ -180,11 +199,13 @@ impl SentMarch {
             bisections: settings.bisections,
             distance_adaptation: (settings.distance_adaptation == Adaptation::On).into(),
             silhouette_adaptation: (settings.silhouette_adaptation == Adaptation::On).into(),
-            test: match settings.test {
+            test: match test {
                 RootTest::Sign => 0,
-                _ => 1,
+                RootTest::Taylor => 1,
             },
-            unused: [0; 3],
+            // Ended by the conversion where they are more than can be counted.
+            samples: settings.samples as u32,
+            unused: [0; 2],
         }
     }
 }
@@ -219,37 +240,48 @@ struct SentAnswer {
     nonfinite: u32,
 }
 
-impl Traffic for March<'_> {
-    type Ready = Segment;
+impl<'a> Traffic for March<'a> {
+    type Ready = Marcher;
     type Sent = SentSegment;
     type Answer = SentAnswer;
     type Settings = SentSettings;
-    type Reader = ();
+    type Reader = Option<Certifier<'a>>;
 
-    fn ready(&self, ray: Ray) -> Result<Segment, Hit> {
+    fn ready(&self, ray: Ray) -> Result<Marcher, Hit> {
         let miss =
             |nonfinite| Err(Hit::miss(Certificate::MISS, Work { nonfinite, ..Work::default() }));
         match self.implicit.domain.clip(ray, self.range) {
             None => miss(0),
             Some(clip) => {
                 let segment = Segment::new(ray, clip.outer);
-                if segment.is_resolved(&self.settings) { Ok(segment) } else { miss(1) }
+                if segment.is_resolved(&self.settings) {
+                    Ok(Marcher { ray, clip, segment })
+                } else {
+                    miss(1)
+                }
             }
         }
     }
 
-    fn sent(&self, segment: &Segment) -> SentSegment {
-        let Segment { start, direction, length, .. } = *segment;
+    fn sent(&self, marcher: &Marcher) -> SentSegment {
+        let Segment { start, direction, length, .. } = marcher.segment;
         SentSegment { start, length, direction, unused: 0.0 }
     }
 
     fn settings(&self, rays: u32) -> SentSettings {
-        SentSettings { march: SentMarch::new(&self.settings), rays, unused: [0; 3] }
+        SentSettings { march: SentMarch::new(self.amp.test, &self.settings), rays, unused: [0; 3] }
     }
 
-    fn reader(&self) {}
+    fn reader(&self) -> Option<Certifier<'a>> {
+        (self.amp.certify == Certification::On).then(|| Certifier::new(&self.implicit.tape))
+    }
 
-    fn read(&self, (): &mut (), segment: Segment, answer: &SentAnswer) -> Result<Hit, Segment> {
+    fn read(
+        &self,
+        certifier: &mut Option<Certifier<'a>>,
+        Marcher { ray, clip, segment }: Marcher,
+        answer: &SentAnswer,
+    ) -> Result<Hit, Marcher> {
         let work = Work {
             points: answer.points.into(),
             gradients: answer.gradients.into(),
@@ -260,6 +292,11 @@ impl Traffic for March<'_> {
             return Ok(Hit::miss(Certificate::MISS, work));
         }
         let bracket = answer.bracket.map(|s| segment.t(s.into()));
-        Ok(Hit { bracket, certificate: Certificate::HIT, work })
+        let mut hit = Hit { bracket, certificate: Certificate::HIT, work };
+        if let Some(certifier) = certifier {
+            let slack = self.settings.slack / ray.direction.as_dvec3().length();
+            certifier.certify(ray, clip, slack, &mut hit);
+        }
+        Ok(hit)
     }
 }

@@ -228,7 +228,7 @@ impl Frames {
             *sent = with(direction.as_dvec3(), (*strength).into());
         }
         SentSettings {
-            march: SentMarch::new(&self.settings),
+            march: SentMarch::new(self.method.amp.test, &self.settings),
             eye: with(view.camera.eye, perspective),
             forward: with(forward, 0.0),
             right: with(extent * right, view.footprint(1.0)),
@@ -246,4 +246,3 @@ impl Frames {
         }
     }
 }
-

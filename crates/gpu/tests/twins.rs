@@ -2,7 +2,7 @@
 
 mod adapter;
 
-use zeroset_cpu::{Amp, Bisection};
+use zeroset_cpu::{Amp, Bisection, RootTest};
 use zeroset_gpu::{AmpGpu, BisectionGpu};
 use zeroset_raycast::catalogue::Catalogue;
 use zeroset_raycast::{Camera, Hits, Method, Progress, Rays, Request, Scene, View};
@@ -36,20 +36,29 @@ fn is_at_silhouette(hits: &Hits, pixel: usize, jump: f64) -> bool {
 }
 
 #[test]
-fn marches_hit_where_their_twins_do() {
+fn sign_tests_hit_where_their_twins_do() {
+    marches_agree(RootTest::Sign);
+}
+
+#[test]
+fn taylor_tests_hit_where_their_twins_do() {
+    marches_agree(RootTest::Taylor);
+}
+
+fn marches_agree(test: RootTest) {
     if adapter::device().is_none() {
         return;
     }
     let mut report = Vec::new();
     for surface in Catalogue::builtin().iter() {
         let scene = surface.scene().unwrap();
-        let twin = Amp::default();
+        let twin = Amp { test, ..Amp::default() };
         if twin.supports(&scene).is_err() {
             continue;
         }
         let view = View::new(Camera::facing(&scene.domain), SIZE, SIZE);
         let expected = cast(&twin, &scene, &view);
-        let actual = cast(&AmpGpu::default(), &scene, &view);
+        let actual = cast(&AmpGpu::new(test), &scene, &view);
         let jump = 0.02 * scene.domain.radius();
         let (mut other, mut far) = (0, 0);
         for i in 0..expected.len() {

@@ -4,9 +4,11 @@
 //! - [`Rays`] are a [`View`] (a camera and its pixels) or a [`RayBatch`].
 //! - A [`Method`] is an algorithm with its knobs; prepared for a scene it is an [`Intersector`].
 //! - [`Hits`] are the answers: a bracket on the ray, and a [`Certificate`] of what was proved.
+//! - A [`Certifier`] proves roots in brackets that were found without proof.
 //! - The [`catalogue`] holds the surfaces of the papers.
 
 pub mod catalogue;
+pub mod certifier;
 pub mod domain;
 pub mod error;
 pub mod hit;
@@ -17,6 +19,7 @@ pub mod ray;
 pub mod scene;
 pub mod view;
 
+pub use certifier::{Certification, Certifier};
 pub use domain::{Clip, Domain};
 pub use error::{Error, KnobError, Unsupported};
 pub use hit::{Certificate, Hit, Hits, Request, Work};

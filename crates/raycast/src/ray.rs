@@ -1,6 +1,7 @@
 //! Rays, and sets of rays.
 
 use glam::{DVec3, Vec3};
+use zeroset_ia::{Interval, Set};
 
 use crate::View;
 
@@ -25,6 +26,13 @@ impl Ray {
     /// The point at t, rounded to double precision.
     pub fn at(self, t: f64) -> DVec3 {
         self.origin.as_dvec3() + t * self.direction.as_dvec3()
+    }
+
+    /// A box that contains the points over a closed range of t.
+    pub fn over(self, [a, b]: [f64; 2]) -> [Interval<f64, Set>; 3] {
+        let (o, d) = (self.origin.as_dvec3(), self.direction.as_dvec3());
+        let t = Interval::new(a, b);
+        std::array::from_fn(|axis| Interval::point(o[axis]) + t * Interval::point(d[axis]))
     }
 
     /// Are all numbers finite, and is there a direction? Methods answer `miss` for other rays.

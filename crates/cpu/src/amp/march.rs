@@ -5,8 +5,8 @@ use zeroset_ia::plain::Plain;
 use zeroset_ia::{Dual, Kernel, Packet, Pair, Scalar};
 use zeroset_raycast::{Certificate, Hit, Ray, Work};
 
+use super::Adaptation;
 use super::rule::Settings;
-use super::{Adaptation, RootTest};
 
 /// The part of a ray in the domain. The march counts s, the length from where the ray enters, so
 /// that steps are lengths in space and positions stay exact far from the eye.
@@ -50,38 +50,88 @@ impl Segment {
     }
 }
 
-/// A value of the function along the rays.
+/// The function along the rays, at one s for each.
 #[derive(Clone, Copy)]
-struct Sample<R> {
+pub(super) struct Sample<R> {
     s: R,
     value: R,
+    /// F'(s), if the root test looks at slopes.
+    slope: R,
     /// Where the value is finite.
     finite: u64,
 }
 
-impl RootTest {
-    /// In which lanes do the steps between two samples hold a root?
+impl<R: Packet> Sample<R> {
+    /// This one in the lanes of the mask, else the other.
     #[inline(always)]
-    fn isolates<R: Packet>(self, from: &Sample<R>, to: &Sample<R>, zero: R) -> u64 {
-        match self {
-            // The signs themselves, since the product of two tiny values would vanish.
-            Self::Sign => {
-                let (a, b) = (from.value, to.value);
-                let opposite = a.lt(zero) & zero.lt(b) | b.lt(zero) & zero.lt(a);
-                opposite & from.finite & to.finite
-            }
+    fn select(self, mask: u64, other: Self) -> Self {
+        Self {
+            s: self.s.select(mask, self.s, other.s),
+            value: self.value.select(mask, self.value, other.value),
+            slope: self.slope.select(mask, self.slope, other.slope),
+            finite: self.finite & mask | other.finite & !mask,
         }
     }
 }
 
+/// A [`RootTest`](super::RootTest) known when code is compiled, so that the march has no branch for it.
+pub(super) trait Test: Copy {
+    /// Does it look at slopes? Then every sample has one.
+    const SLOPES: bool;
+    /// In which lanes do the steps between two samples hold a root?
+    fn isolates<R: Packet>(self, from: &Sample<R>, to: &Sample<R>, zero: R) -> u64;
+}
+
+/// [`RootTest::Sign`](super::RootTest::Sign).
+#[derive(Clone, Copy)]
+pub(super) struct Sign;
+
+/// [`RootTest::Taylor`](super::RootTest::Taylor).
+#[derive(Clone, Copy)]
+pub(super) struct Taylor;
+
+impl Test for Sign {
+    const SLOPES: bool = false;
+    /// The signs themselves, since the product of two tiny values would vanish.
+    #[inline(always)]
+    fn isolates<R: Packet>(self, from: &Sample<R>, to: &Sample<R>, zero: R) -> u64 {
+        let (a, b) = (from.value, to.value);
+        let opposite = a.lt(zero) & zero.lt(b) | b.lt(zero) & zero.lt(a);
+        opposite & from.finite & to.finite
+    }
+}
+
+impl Test for Taylor {
+    const SLOPES: bool = true;
+    /// Eq. 3: 0 is in [min, max] if one of p, q, r, s is at most 0 and one at least. What is NaN is
+    /// neither.
+    #[inline(always)]
+    fn isolates<R: Packet>(self, from: &Sample<R>, to: &Sample<R>, zero: R) -> u64 {
+        let half = splat(zero, 0.5) * (to.s - from.s);
+        let p = from.value;
+        let q = from.value + from.slope * half;
+        let r = to.value - to.slope * half;
+        let s = to.value;
+        let least = p.le(zero) | q.le(zero) | r.le(zero) | s.le(zero);
+        let greatest = zero.le(p) | zero.le(q) | zero.le(r) | zero.le(s);
+        least & greatest & from.finite & to.finite
+    }
+}
+
+/// By the Taylor test, it may be that neither half of a bracket holds a root. Within so many bisections,
+/// the paper's number, that refutes the bracket, and the march goes on behind it. Further ones look at
+/// rounding errors: a double root is known to half of the digits.
+const REFUTING: f64 = 10.0;
+
 /// The march of some rays, given with their indices; gives the answers with them.
-pub(super) struct March<'a> {
+pub(super) struct March<'a, T> {
+    pub test: T,
     pub tape: &'a Tape,
     pub settings: &'a Settings,
     pub segments: &'a [(usize, Segment)],
 }
 
-impl Kernel for March<'_> {
+impl<T: Test> Kernel for March<'_, T> {
     type Output = Vec<(usize, Hit)>;
 
     #[inline(always)]
@@ -93,7 +143,7 @@ impl Kernel for March<'_> {
         };
         let mut hits = Vec::with_capacity(self.segments.len());
         for packet in self.segments.chunks(Pair::<R>::LANES) {
-            march(&mut function, zero, self.settings, packet, &mut hits);
+            march(&mut function, zero, self.test, self.settings, packet, &mut hits);
         }
         hits
     }
@@ -127,9 +177,9 @@ impl<R: Packet> Function<'_, R> {
         self.values.evaluate([Plain(x), Plain(y), Plain(z)]).0
     }
 
-    /// F'(s) = grad S . D.
+    /// F(s), and F'(s) = grad S . D.
     #[inline(always)]
-    fn slope(&mut self, lines: &Lines<R>, s: R) -> R {
+    fn expansion(&mut self, lines: &Lines<R>, s: R) -> [R; 2] {
         let [x, y, z] = lines.at(s);
         let [u, v, w] = lines.direction;
         let along = [(x, u), (y, v), (z, w)];
@@ -137,7 +187,8 @@ impl<R: Packet> Function<'_, R> {
             #[inline(always)]
             |(x, u)| Dual { value: Plain(x), tangent: [Plain(u)] },
         );
-        self.slopes.evaluate([x, y, z]).tangent[0].0
+        let Dual { value, tangent: [slope] } = self.slopes.evaluate([x, y, z]);
+        [value.0, slope.0]
     }
 }
 
@@ -148,9 +199,10 @@ fn splat<R: Packet>(zero: R, x: f64) -> R {
 
 /// Marches one packet, every lane by its own steps.
 #[inline(always)]
-fn march<R: Packet>(
+fn march<R: Packet, T: Test>(
     function: &mut Function<'_, R>,
     zero: R,
+    test: T,
     settings: &Settings,
     packet: &[(usize, Segment)],
     hits: &mut Vec<(usize, Hit)>,
@@ -170,50 +222,66 @@ fn march<R: Packet>(
     let base = splat(zero, settings.step);
 
     // The last sample of each ray, none at first, and the end of the step or bracket after it.
-    let mut from = Sample { s: zero, value: zero, finite: 0 };
-    let mut to = zero;
+    let none = Sample { s: zero, value: zero, slope: zero, finite: 0 };
+    let [mut from, mut to] = [none; 2];
     let mut active = (1_u64 << packet.len()) - 1;
     let mut bisecting = 0_u64;
     let mut found = 0_u64;
-    let mut bisections = splat(zero, f64::from(settings.bisections));
+    let all = splat(zero, f64::from(settings.bisections));
+    let last_refuting = splat(zero, f64::from(settings.bisections) - REFUTING);
+    let samples = splat(zero, settings.samples);
+    let mut bisections = all;
     let [mut points, mut gradients, mut nonfinite] = [zero; 3];
     while active != 0 {
-        let s = to.select(bisecting, half * (from.s + to), to);
-        let value = function.value(&lines, s) - epsilon;
+        let s = to.s.select(bisecting, half * (from.s + to.s), to.s);
+        let [value, slope] = if T::SLOPES {
+            gradients = gradients + zero.select(active, one, zero);
+            function.expansion(&lines, s)
+        } else {
+            points = points + zero.select(active, one, zero);
+            [function.value(&lines, s), zero]
+        };
+        let value = value - epsilon;
         let finite = value.abs().lt(infinity);
-        let sample = Sample { s, value, finite };
-        points = points + zero.select(active, one, zero);
+        let sample = Sample { s, value, slope, finite };
         nonfinite = nonfinite + zero.select(active & !finite, one, zero);
 
         // A sample that is zero is a root, which the strict test would miss.
         let root = active & value.le(zero) & zero.le(value);
-        let isolated = active & settings.test.isolates(&from, &sample, zero);
-        let marching = active & !bisecting & !root & !isolated;
+        let isolated = active & test.isolates(&from, &sample, zero);
         let halved = active & bisecting & !root;
-        let mut done = root;
-        // Half of the bracket without a finite value: the bracket stays.
-        done |= halved & !finite;
+        let rest = halved & !isolated & finite;
+        let rest = if T::SLOPES { rest & test.isolates(&sample, &to, zero) } else { rest };
+        let neither = halved & !isolated & !rest;
         bisections = bisections - zero.select(halved, one, zero);
+        let refuted = if T::SLOPES {
+            neither & finite & last_refuting.le(bisections) & gradients.le(samples)
+        } else {
+            0
+        };
+        // Half of the bracket without a finite value, or a refutation that comes too late: the bracket
+        // stays.
+        let mut done = root | neither;
         done |= (halved | isolated) & bisections.le(zero);
-        done |= marching & length.le(s);
-        found |= root | isolated;
-        bisecting |= isolated;
+        done &= !refuted;
+        let marching = active & !bisecting & !root & !isolated | refuted;
+        bisections = all.select(refuted, all, bisections);
+        found = (found | root | isolated) & !refuted;
+        bisecting = (bisecting | isolated) & !refuted;
 
         // Up to here there is no root.
-        let passed = root | marching | halved & finite & !isolated;
-        from = Sample {
-            s: s.select(passed, s, from.s),
-            value: value.select(passed, value, from.value),
-            finite: finite & passed | from.finite & !passed,
-        };
-        to = s.select(root | isolated, s, to);
+        from = sample.select(root | marching | rest, from);
+        // A refuted bracket is passed as a whole.
+        from = to.select(refuted, from);
+        to = sample.select(root | isolated, to);
+        done |= marching & length.le(from.s);
         active &= !done;
 
         let marching = marching & active;
         if marching == 0 {
             continue;
         }
-        let size = value.abs();
+        let size = from.value.abs();
         let near = marching & size.le(tau1);
         let mut step = base;
         if settings.distance_adaptation == Adaptation::On {
@@ -221,11 +289,16 @@ fn march<R: Packet>(
             step = step.select(near, half * base, step.select(far, base + base, base));
         }
         if settings.silhouette_adaptation == Adaptation::On && near != 0 {
-            let slope = function.slope(&lines, s);
-            gradients = gradients + zero.select(near, one, zero);
+            let slope = if T::SLOPES {
+                from.slope
+            } else {
+                gradients = gradients + zero.select(near, one, zero);
+                let [_, slope] = function.expansion(&lines, from.s);
+                slope
+            };
             step = step.select(near & slope.abs().le(tau3), half * step, step);
         }
-        to = to.select(marching, (s + step).min(length), to);
+        to.s = to.s.select(marching, (from.s + step).min(length), to.s);
     }
     for (lane, (ray, segment)) in packet.iter().enumerate() {
         let number = |x: R| x.lane(lane).to_f64();
@@ -236,7 +309,7 @@ fn march<R: Packet>(
             ..Work::default()
         };
         let hit = if found >> lane & 1 == 1 {
-            let bracket = [from.s, to].map(|s| segment.t(number(s)));
+            let bracket = [from.s, to.s].map(|s| segment.t(number(s)));
             Hit { bracket, certificate: Certificate::HIT, work }
         } else {
             Hit::miss(Certificate::MISS, work)
@@ -264,4 +337,51 @@ fn columns<R: Packet, const N: usize>(
             )
         },
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(s: f32, value: f32, slope: f32) -> Sample<f32> {
+        Sample { s, value, slope, finite: u64::from(value.is_finite()) }
+    }
+
+    /// Is there a root by the test, and by the same test with the function's sign changed?
+    fn isolates(test: impl Test, from: [f32; 3], to: [f32; 3]) -> bool {
+        let [from, to] = [from, to].map(|[s, value, slope]| sample(s, value, slope));
+        let negative = |x: Sample<f32>| sample(x.s, -x.value, -x.slope);
+        let answers = [[from, to], [negative(from), negative(to)]]
+            .map(|[from, to]| test.isolates(&from, &to, 0.0_f32) == 1);
+        assert_eq!(answers[0], answers[1]);
+        answers[0]
+    }
+
+    #[test]
+    fn the_sign_test_looks_at_signs() {
+        assert!(isolates(Sign, [0.0, 1e-30, 0.0], [1.0, -1e-30, 0.0]));
+        assert!(!isolates(Sign, [0.0, 1.0, -9.0], [1.0, 1.0, 9.0]));
+        assert!(!isolates(Sign, [0.0, f32::INFINITY, 0.0], [1.0, -1.0, 0.0]));
+        assert!(!isolates(Sign, [0.0, f32::NAN, 0.0], [1.0, -1.0, 0.0]));
+    }
+
+    #[test]
+    fn the_taylor_test_is_equation_3() {
+        // q = 1 - 2 * 0.5 = 0 is enough, a little more is not; the same for r.
+        assert!(isolates(Taylor, [3.0, 1.0, -2.0], [4.0, 1.0, 0.0]));
+        assert!(!isolates(Taylor, [3.0, 1.0, -1.99], [4.0, 1.0, 0.0]));
+        assert!(isolates(Taylor, [3.0, 1.0, 0.0], [4.0, 1.0, 2.0]));
+        assert!(!isolates(Taylor, [3.0, 1.0, 0.0], [4.0, 1.0, 1.99]));
+        // Slopes away from the middle do not count, nor those of a shorter step.
+        assert!(!isolates(Taylor, [3.0, 1.0, 9.0], [4.0, 1.0, -9.0]));
+        assert!(!isolates(Taylor, [3.0, 1.0, -2.0], [3.5, 1.0, 2.0]));
+        // Opposite signs do, whatever the slopes.
+        for slope in [0.0, -3.0, f32::NAN, f32::INFINITY] {
+            assert!(isolates(Taylor, [3.0, 1.0, slope], [4.0, -1.0, slope]));
+        }
+        // Slopes that are no numbers tell nothing; values that are not finite are no ends.
+        assert!(!isolates(Taylor, [3.0, 1.0, f32::NAN], [4.0, 1.0, f32::NAN]));
+        assert!(!isolates(Taylor, [3.0, f32::INFINITY, 0.0], [4.0, -1.0, 0.0]));
+        assert!(!isolates(Taylor, [3.0, 1.0, 0.0], [4.0, f32::NAN, 0.0]));
+    }
 }

@@ -2,9 +2,10 @@
 //!
 //! S(p(t)) is sampled along the ray from `t_s` to `t_e` until a step holds a root by the [root
 //! test](RootTest); ten bisections then narrow it (Algorithm 1). Eq. 2 adapts the step: halved near
-//! the surface, halved again near a silhouette, doubled far away. Nothing is proved: close pairs of
-//! roots and double roots are missed, and a pole that changes sign counts as a root. What the paper
-//! leaves open follows the rule in `docs/deviations.md`.
+//! the surface, halved again near a silhouette, doubled far away. Nothing is proved: a pole that changes
+//! sign counts as a root. By the sign test close pairs of roots and double roots are missed; by the
+//! Taylor test some are found where there are none. With the knob `certify` a hit is proven where it
+//! can be. What the paper leaves open follows the rule in `docs/deviations.md`.
 
 mod march;
 mod rule;
@@ -12,24 +13,26 @@ mod rule;
 use zeroset_expr::Parameters;
 use zeroset_ia::{Isa, Rounding, dispatch};
 use zeroset_raycast::{
-    Certificate, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray, Rays,
-    Report, Request, Scene, Unsupported, Work, knob,
+    Certificate, Certification, Certifier, Error, Hit, Hits, Intersector, Knob, KnobError, Method,
+    Progress, Ray, Rays, Report, Request, Scene, Unsupported, Work, knob,
 };
 
 use crate::implicit::Implicit;
 use crate::normals::{self, Normals};
 use crate::{isa, tiles};
-use march::March;
 pub use march::Segment;
+use march::{March, Sign, Taylor};
 pub use rule::Settings;
 
 /// Decides whether a step holds a root.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum RootTest {
     /// `S(p(t_i)) S(p(t_i+1)) < 0`: no false roots but at poles; an even number of roots is missed.
     #[default]
     Sign,
+    /// Eq. 3: 0 lies between the least and the greatest of both values and of both tangents in the
+    /// middle of the step. Multiple roots are found; a step without a root may pass.
+    Taylor,
 }
 
 /// Does a measure change the step?
@@ -42,7 +45,7 @@ pub enum Adaptation {
     Off,
 }
 
-/// Singh and Narayanan's adaptive marching points: the method `amp-sign`.
+/// Singh and Narayanan's adaptive marching points: the methods `amp-sign` and `amp-taylor`.
 ///
 /// `None` stands for `auto`, the value that follows from the scene by the rule in
 /// `docs/deviations.md`. Lengths are in units of space, however long a ray's direction is.
@@ -72,6 +75,8 @@ pub struct Amp {
     pub silhouette_adaptation: Adaptation,
     /// The instruction set; `None` is the widest there is. Answers do not depend on it.
     pub isa: Option<Isa>,
+    /// Are hits proven where they can be? Default: off, as in the paper.
+    pub certify: Certification,
 }
 
 impl Default for Amp {
@@ -88,7 +93,23 @@ impl Default for Amp {
             distance_adaptation: Adaptation::On,
             silhouette_adaptation: Adaptation::On,
             isa: None,
+            certify: Certification::Off,
         }
+    }
+}
+
+impl Amp {
+    /// b in a scene: as set, as published, or from the pixel footprint.
+    ///
+    /// # Errors
+    /// If single precision does not hold the domain and the step, or a ray needs too many samples.
+    pub fn step(&self, scene: &Scene) -> Result<f64, Unsupported> {
+        self.supported_step(&scene.domain, scene.published_step)
+    }
+
+    /// `amp-taylor`, with the same knobs as the default, `amp-sign`.
+    pub fn taylor() -> Self {
+        Self { test: RootTest::Taylor, ..Self::default() }
     }
 }
 
@@ -100,18 +121,20 @@ impl Method for Amp {
     fn id(&self) -> &'static str {
         match self.test {
             RootTest::Sign => "amp-sign",
+            RootTest::Taylor => "amp-taylor",
         }
     }
 
     fn summary(&self) -> &'static str {
         match self.test {
             RootTest::Sign => "adaptive marching points with the sign test [singh2010]",
+            RootTest::Taylor => "adaptive marching points with the Taylor test [singh2010]",
         }
     }
 
     fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
         Implicit::function(self.id(), scene)?;
-        self.supported_step(&scene.domain, scene.published_step).map(|_| ())
+        self.step(scene).map(|_| ())
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Intersector>, Error> {
@@ -164,6 +187,7 @@ impl Method for Amp {
                 "on, or off: |grad S . D| does not change the step (default on)",
             ),
             isa::knob(self.isa),
+            self.certify.knob(),
         ]
     }
 
@@ -183,6 +207,7 @@ impl Method for Amp {
                 self.silhouette_adaptation = knob::choice(knob, value, &ADAPTATIONS)?;
             }
             "isa" => self.isa = isa::read(value)?,
+            "certify" => self.certify = Certification::read(value)?,
             _ => return Err(knob::unknown(self.id(), knob, &self.knobs())),
         }
         Ok(())
@@ -237,8 +262,9 @@ impl Intersector for Prepared {
         progress: &Progress,
     ) -> Result<Report, Error> {
         let mut settings = self.settings;
-        if hits.request == Request::Any {
-            // Whether there is a root is known once a step holds one (Section 4.2).
+        if hits.request == Request::Any && self.method.test == RootTest::Sign {
+            // Whether there is a root is known once a step holds one (Section 4.2). The Taylor test
+            // knows only when bisection has not refuted the step.
             settings.bisections = 0;
         }
         tiles::cast(rays, hits, progress, |tile| self.cast(tile, rays.range(), &settings))?;
@@ -261,11 +287,32 @@ impl Prepared {
                 hits[index].work.nonfinite += 1;
             }
         }
-        let march = March { tape: &self.implicit.tape, settings, segments: &segments };
+        let (tape, segments) = (&self.implicit.tape, &segments[..]);
         let isa = self.method.isa.unwrap_or_else(Isa::best);
-        for (index, hit) in dispatch(isa, Rounding::Nearest, march) {
+        let found = match self.method.test {
+            RootTest::Sign => {
+                dispatch(isa, Rounding::Nearest, March { test: Sign, tape, settings, segments })
+            }
+            RootTest::Taylor => {
+                dispatch(isa, Rounding::Nearest, March { test: Taylor, tape, settings, segments })
+            }
+        };
+        for (index, hit) in found {
             hits[index] = hit;
         }
+        if self.method.certify == Certification::On {
+            self.certify(rays, range, &mut hits);
+        }
         hits
+    }
+
+    /// Proves what can be proved of the hits: about f = 0, whatever `epsilon` is.
+    fn certify(&self, rays: &[Ray], range: [f64; 2], hits: &mut [Hit]) {
+        let mut certifier = Certifier::new(&self.implicit.tape);
+        for (ray, hit) in rays.iter().zip(hits).filter(|(_, hit)| hit.certificate.is_hit()) {
+            let clip = self.implicit.domain.clip(*ray, range).expect("a hit is in the domain");
+            let slack = self.settings.slack / ray.direction.as_dvec3().length();
+            certifier.certify(*ray, clip, slack, hit);
+        }
     }
 }

@@ -5,14 +5,12 @@ use zeroset_expr::Tape;
 use zeroset_ia::plain::Plain;
 use zeroset_raycast::{Camera, Domain, Error, Unsupported, View};
 
-use super::{Adaptation, Amp, MAX_BISECTIONS, RootTest};
+use super::{Adaptation, Amp, MAX_BISECTIONS};
 use crate::implicit::Implicit;
 
 /// The knobs as the march uses them: thresholds and epsilon in units of the function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Decides whether a step holds a root.
-    pub test: RootTest,
     /// b.
     pub step: f64,
     /// The surface is near where |S| is at most this.
@@ -31,6 +29,11 @@ pub struct Settings {
     pub silhouette_adaptation: Adaptation,
     /// No ray is longer within the domain, in units of space.
     pub longest: f64,
+    /// No march that nothing refutes takes more samples. One that has taken so many is refuted no
+    /// more: it would crawl through a function of high frequency.
+    pub samples: f64,
+    /// By how much brackets are widened for a proof, in units of space.
+    pub slack: f64,
 }
 
 /// The base step in pixel footprints.
@@ -40,6 +43,10 @@ const ROWS: usize = 512;
 /// The most samples that a march may take: so that counts are exact in single precision, every step
 /// is a step, and a ray ends.
 const MAX_SAMPLES: f64 = 1_048_576.0;
+/// Units in the last place of the domain's largest coordinate by which roots of rounded values may lie
+/// beside their place. The start and direction of a line, the product and the sum that make a point, put
+/// it off by 4.5 of them at most in a cube around the origin.
+const SLACK: f64 = 8.0;
 /// Points of the domain at which the size of the function is measured.
 const PROBES: usize = 1024;
 
@@ -55,7 +62,6 @@ impl Settings {
         let tau1 = amp.tau1.unwrap_or(1.0);
         let unit = 0.5 * domain.longest_side();
         Ok(Self {
-            test: amp.test,
             step,
             tau1: scale * tau1,
             tau2: scale * amp.tau2.unwrap_or(2.0 * tau1),
@@ -65,6 +71,10 @@ impl Settings {
             distance_adaptation: amp.distance_adaptation,
             silhouette_adaptation: amp.silhouette_adaptation,
             longest: 2.0 * domain.radius(),
+            samples: 2.0 * domain.radius() / (0.25 * step),
+            slack: SLACK
+                * f64::from(f32::EPSILON)
+                * domain.min.abs().max(domain.max.abs()).max_element(),
         })
     }
 }

@@ -4,8 +4,8 @@
 //! where there is none. The finish settles them one ray at a time, in double precision.
 
 use zeroset_expr::{Evaluator, Tape};
-use zeroset_ia::{Decorated, Dual, Interval, Set};
-use zeroset_raycast::{Clip, Ray, Work};
+use zeroset_ia::{Dual, Interval, Set};
+use zeroset_raycast::{Certifier, Clip, Ray, Work};
 
 type I = Interval<f64, Set>;
 
@@ -24,10 +24,8 @@ pub(super) enum Finding {
 
 /// Settles slabs of a function.
 pub(super) struct Finish<'a> {
-    values: Evaluator<'a, I>,
+    certifier: Certifier<'a>,
     slopes: Evaluator<'a, Dual<I, 1>>,
-    /// Only if the function is not continuous wherever it is defined.
-    continuity: Option<Evaluator<'a, Decorated<f64>>>,
 }
 
 /// A piece of a ray, by the enclosures of value and slope.
@@ -54,9 +52,8 @@ impl<'a> Finish<'a> {
     pub(super) fn new(tape: &'a Tape) -> Self {
         let zero = I::point(0.0);
         Self {
-            values: tape.evaluator(&zero),
+            certifier: Certifier::new(tape),
             slopes: tape.evaluator(&Dual::constant_value(zero)),
-            continuity: (!tape.is_continuous()).then(|| tape.evaluator(&Decorated::new(zero))),
         }
     }
 
@@ -109,7 +106,7 @@ impl<'a> Finish<'a> {
 
     /// Looks at a piece: natural enclosure, mean value form, monotonicity [mitchell1990].
     fn examine(&mut self, ray: Ray, range: [f64; 2], work: &mut Work) -> Piece {
-        let point = along(ray, range);
+        let point = ray.over(range);
         let d = ray.direction.as_dvec3().to_array();
         let variables: [Dual<I, 1>; 3] =
             std::array::from_fn(|axis| Dual { value: point[axis], tangent: [I::point(d[axis])] });
@@ -119,11 +116,11 @@ impl<'a> Finish<'a> {
             return Piece::Empty;
         }
         // What follows rests on the mean value theorem.
-        if !slope.is_bounded_by(f64::MAX) || !self.is_continuous(ray, range) {
+        if !slope.is_bounded_by(f64::MAX) || !self.certifier.is_continuous(ray, range) {
             return Piece::Undecided;
         }
         if slope.lo > 0.0 || slope.hi < 0.0 {
-            let [a, b] = range.map(|t| sign(self.value(ray, [t, t], work)));
+            let [a, b] = range.map(|t| self.certifier.sign(ray, t, work));
             return match a * b {
                 1 => Piece::Empty,
                 -1 => Piece::Crossing,
@@ -132,7 +129,7 @@ impl<'a> Finish<'a> {
         }
         let middle = 0.5 * (range[0] + range[1]);
         let offset = I::new(range[0], range[1]) - I::point(middle);
-        let centred = self.value(ray, [middle, middle], work) + slope * offset;
+        let centred = self.certifier.value(ray, [middle, middle], work) + slope * offset;
         if centred.contains_zero() { Piece::Undecided } else { Piece::Empty }
     }
 
@@ -145,17 +142,17 @@ impl<'a> Finish<'a> {
         width: f64,
         work: &mut Work,
     ) -> Finding {
-        let before = sign(self.value(ray, [a, a], work));
+        let before = self.certifier.sign(ray, a, work);
         while b - a > width {
             let middle = 0.5 * (a + b);
-            match before * sign(self.value(ray, [middle, middle], work)) {
+            match before * self.certifier.sign(ray, middle, work) {
                 1 => a = middle,
                 -1 => b = middle,
                 // The root is too near the middle: put the middle off it.
                 _ => {
                     let near = [middle - 0.25 * width, middle + 0.25 * width];
                     let near = [near[0].max(a), near[1].min(b)];
-                    if !self.changes_sign(ray, near, work) {
+                    if !self.certifier.changes_sign(ray, near, work) {
                         return Finding::Unknown([a, b]);
                     }
                     [a, b] = near;
@@ -187,44 +184,9 @@ impl<'a> Finish<'a> {
             return None;
         }
         // Where the slab starts outside the surely inner part, a root there would come first.
-        if from > start && self.value(ray, [start, from], work).contains_zero() {
+        if from > start && self.certifier.value(ray, [start, from], work).contains_zero() {
             return None;
         }
-        (self.changes_sign(ray, [from, to], work)).then_some([from, to])
+        (self.certifier.changes_sign(ray, [from, to], work)).then_some([from, to])
     }
-
-    /// Does the function, continuous on the range, have opposite signs at its ends?
-    fn changes_sign(&mut self, ray: Ray, [a, b]: [f64; 2], work: &mut Work) -> bool {
-        let [fa, fb] = [a, b].map(|t| self.value(ray, [t, t], work));
-        sign(fa) * sign(fb) < 0 && self.is_continuous(ray, [a, b])
-    }
-
-    /// The function's enclosure over a range of t.
-    fn value(&mut self, ray: Ray, range: [f64; 2], work: &mut Work) -> I {
-        work.intervals += 1;
-        self.values.evaluate(along(ray, range))
-    }
-
-    /// Is the function proven to be defined and continuous over a range of t?
-    fn is_continuous(&mut self, ray: Ray, range: [f64; 2]) -> bool {
-        match &mut self.continuity {
-            None => true,
-            Some(evaluator) => {
-                evaluator.evaluate(along(ray, range).map(Decorated::new)).is_continuous()
-            }
-        }
-    }
-}
-
-/// The points of a ray over a range of t.
-fn along(ray: Ray, [a, b]: [f64; 2]) -> [I; 3] {
-    let o = ray.origin.as_dvec3();
-    let d = ray.direction.as_dvec3();
-    let t = I::new(a, b);
-    std::array::from_fn(|axis| I::point(o[axis]) + t * I::point(d[axis]))
-}
-
-/// The sign of all members, or 0.
-fn sign(x: I) -> i32 {
-    i32::from(x.lo > 0.0) - i32::from(x.hi < 0.0)
 }
