@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use zeroset::bench::{Sample, Tolerance, Truths, Verdict, judge, truth};
+use zeroset::bench::{Oracle, Sample, Tolerance, Truths, Verdict, judge, truth};
 use zeroset::cpu::amp::RootTest;
 use zeroset::cpu::{Amp, Bisection, Finishing, Stop};
 use zeroset::gpu::{AmpGpu, BisectionGpu, Choice, Frames, Look, Shadows};
@@ -65,20 +65,21 @@ fn frame(method: &dyn Method, scene: &Scene, view: &View) -> Result<Frame, Failu
     Ok(Frame { cast: first, shadows })
 }
 
-/// Rays that lose a root or hit nothing, of those judged, in a view of 64 by 64 pixels.
-fn wrong(method: &dyn Method, scene: &Scene) -> Result<[usize; 3], Failure> {
-    let view = View::new(Camera::facing(&scene.domain), 64, 64);
+/// Rays that lose a root, and rays that hit nothing, for each method; in a view of `side` by `side` pixels.
+fn wrong(methods: &[Amp; 2], scene: &Scene, side: usize) -> Result<Vec<String>, Failure> {
+    let view = View::new(Camera::facing(&scene.domain), side, side);
     let rays = Rays::View(&view);
     let sample = Sample::every(1, rays);
-    let truths = truth::reference(scene)?;
-    let truths =
-        zeroset::bench::Oracle::classify(&truths, rays, &sample.indices, &Progress::new())?;
+    let truths = truth::reference(scene)?.classify(rays, &sample.indices, &Progress::new())?;
     let truths = Truths { sample, truths };
-    let mut hits = Hits::new(Request::First, rays.len());
-    method.prepare(scene)?.intersect(rays, &mut hits, &Progress::new())?;
-    let tally = judge(rays, &hits, &truths, Tolerance::Footprint).tally;
-    let lost = tally.count(Verdict::FalseMiss) + tally.count(Verdict::WrongSheet);
-    Ok([lost, tally.count(Verdict::FalseHit), tally.judged])
+    let judged = methods.iter().map(|method| {
+        let mut hits = Hits::new(Request::First, rays.len());
+        method.prepare(scene)?.intersect(rays, &mut hits, &Progress::new())?;
+        let tally = judge(rays, &hits, &truths, Tolerance::Footprint).tally;
+        let lost = tally.count(Verdict::FalseMiss) + tally.count(Verdict::WrongSheet);
+        Ok(format!("{lost}, {}", tally.count(Verdict::FalseHit)))
+    });
+    judged.collect()
 }
 
 fn ms(time: Duration) -> f64 {
@@ -94,11 +95,12 @@ fn twins(test: RootTest) -> [Box<dyn Method>; 2] {
 
 /// Table 1: both tests, with and without shadows, on the CPU; and what is lost.
 pub(crate) fn table_1(size: usize) -> Result<(), Failure> {
+    let side = size.min(64);
     println!("## Table 1, {size}x{size}, on the CPU\n");
     println!(
         "T/S: rate of the Taylor test over that of the sign test; S/NS: rate with shadows over that \
-         without; each as printed, then measured. Lost and false: of 4096 rays, by the sign test and \
-         by the Taylor test.\n"
+         without; each as printed, then measured. Lost and false: rays of a {side}x{side} view, by the \
+         sign test and by the Taylor test.\n"
     );
     println!(
         "| row | surface | step | values a ray | flop (calls) a value | sign ms | Taylor ms | T/S paper | \
@@ -109,19 +111,18 @@ pub(crate) fn table_1(size: usize) -> Result<(), Failure> {
     for (i, printed) in TABLE_1.iter().enumerate() {
         let scene = row(1, i + 1)?;
         let view = View::new(Camera::facing(&scene.domain), size, size);
-        let [sign, taylor] =
+        let methods =
             [RootTest::Sign, RootTest::Taylor].map(|test| Amp { test, ..Amp::default() });
-        let frames = [frame(&sign, &scene, &view)?, frame(&taylor, &scene, &view)?];
+        let frames = [frame(&methods[0], &scene, &view)?, frame(&methods[1], &scene, &view)?];
         let [flops, calls] = counts::operations(&counts::tape(&scene)?);
         let values = frames[0].cast.work.points as f64 / (size * size) as f64;
         let [s, t] = [0, 1].map(|i| ms(frames[i].cast.time));
         let with =
             [0, 1].map(|i| ms(frames[i].cast.time) / ms(frames[i].cast.time + frames[i].shadows));
-        let [lost_s, false_s, _] = wrong(&sign, &scene)?;
-        let [lost_t, false_t, _] = wrong(&taylor, &scene)?;
+        let wrong = wrong(&methods, &scene, side)?;
         println!(
             "| {} | {} | {} | {values:.1} | {flops} ({calls}) | {s:.2} | {t:.2} | {:.2} | {:.2} | {:.2} | \
-             {:.2} | {:.2} | {:.2} | {lost_s}, {false_s} | {lost_t}, {false_t} |",
+             {:.2} | {:.2} | {:.2} | {} |",
             i + 1,
             scene.id,
             scene.published_step.unwrap_or_default(),
@@ -131,6 +132,7 @@ pub(crate) fn table_1(size: usize) -> Result<(), Failure> {
             with[0],
             printed[3] / printed[2],
             with[1],
+            wrong.join(" | "),
         );
         rows += 1;
         below += usize::from(s < t);

@@ -1,6 +1,7 @@
 //! The command line does what it says, and refuses what it cannot do with a message and a status.
 
 mod animation;
+mod devices;
 mod pictures;
 mod rays;
 mod refusals;
