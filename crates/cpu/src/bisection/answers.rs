@@ -19,6 +19,7 @@ pub(super) struct Answers<'a> {
     goal: &'a Goal,
     /// One a ray.
     pub hits: Vec<Hit>,
+    /// One a ray, if there is a finish.
     settled: Vec<Settled>,
     finish: Option<Finish<'a>>,
 }
@@ -41,6 +42,8 @@ impl<'a> Answers<'a> {
         goal: &'a Goal,
         rays: usize,
     ) -> Self {
+        let certify = method.finish == Finishing::Certify;
+        let nothing = Settled { empty_until: f64::NEG_INFINITY, times: 0 };
         let miss = Hit::miss(proof(method, Certificate::PROVEN_MISS), Work::default());
         Self {
             method,
@@ -48,8 +51,8 @@ impl<'a> Answers<'a> {
             domain: &implicit.domain,
             goal,
             hits: vec![miss; rays],
-            settled: vec![Settled { empty_until: f64::NEG_INFINITY, times: 0 }; rays],
-            finish: (method.finish == Finishing::Certify).then(|| Finish::new(&implicit.tape)),
+            settled: vec![nothing; if certify { rays } else { 0 }],
+            finish: certify.then(|| Finish::new(&implicit.tape)),
         }
     }
 
