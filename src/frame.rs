@@ -127,7 +127,7 @@ impl Painter<'_> {
             ShadowRays::new(self.view, hits, &scene.domain, light).map_err(Failure::work)?;
         while !rays.is_empty() {
             let batch = Rays::Batch(&rays.batch);
-            let mut answers = Hits::new(Request::Any, batch.len());
+            let mut answers = Hits::without_work(Request::Any, batch.len());
             let report = self.cast("shadows", batch, &mut answers, intersector, bar)?;
             cost += Cost { rays: batch.len(), work: report.work, ..Cost::default() };
             rays.mark(&answers, &mut light.blocked).map_err(Failure::work)?;

@@ -111,8 +111,7 @@ pub(crate) fn table_1(size: usize) -> Result<(), Failure> {
     for (i, printed) in TABLE_1.iter().enumerate() {
         let scene = row(1, i + 1)?;
         let view = View::new(Camera::facing(&scene.domain), size, size);
-        let methods =
-            [RootTest::Sign, RootTest::Taylor].map(|test| Amp { test, ..Amp::default() });
+        let methods = [RootTest::Sign, RootTest::Taylor].map(|test| Amp { test, ..Amp::default() });
         let frames = [frame(&methods[0], &scene, &view)?, frame(&methods[1], &scene, &view)?];
         let [flops, calls] = counts::operations(&counts::tape(&scene)?);
         let values = frames[0].cast.work.points as f64 / (size * size) as f64;

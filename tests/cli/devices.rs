@@ -50,9 +50,8 @@ fn open(path: std::path::PathBuf) -> RgbImage {
 /// The share of pixels whose bytes are more than a little apart.
 fn differing(a: &RgbImage, b: &RgbImage) -> f64 {
     assert_eq!(a.dimensions(), b.dimensions());
-    let apart = a.pixels().zip(b.pixels()).filter(|(a, b)| {
-        (0..3).any(|c| a.0[c].abs_diff(b.0[c]) > 4)
-    });
+    let apart =
+        a.pixels().zip(b.pixels()).filter(|(a, b)| (0..3).any(|c| a.0[c].abs_diff(b.0[c]) > 4));
     apart.count() as f64 / f64::from(a.width() * a.height())
 }
 
@@ -69,11 +68,13 @@ fn resident_frames_look_like_others() {
         (&["--shadows", "on"], 0.03),
         (&["--camera", "ortho=7"], 0.005),
     ] {
-        let pictures = [("amp-sign", &[][..]), ("amp-sign-gpu", &["--resident"])].map(|(id, own)| {
-            let arguments = [&base[..], more, &["--method", id, "--out", "p.png"], own].concat();
-            done(dir.path(), &arguments);
-            open(dir.path().join("p.png"))
-        });
+        let pictures =
+            [("amp-sign", &[][..]), ("amp-sign-gpu", &["--resident"])].map(|(id, own)| {
+                let arguments =
+                    [&base[..], more, &["--method", id, "--out", "p.png"], own].concat();
+                done(dir.path(), &arguments);
+                open(dir.path().join("p.png"))
+            });
         let share = differing(&pictures[0], &pictures[1]);
         assert!(share < limit, "{more:?}: {share}");
     }
@@ -88,9 +89,21 @@ fn resident_animations_move() {
     let printed = done(
         dir.path(),
         &[
-            "render", "x^2+y^2+z^2=r^2; r=1", "--domain", "-2,-2,-2,2,2,2", "--method",
-            "amp-taylor-gpu", "--resident", "--size", "32x32", "--animate", "r=0.5:1.5:3", "--out",
-            "frames/", "--apng", "all.png",
+            "render",
+            "x^2+y^2+z^2=r^2; r=1",
+            "--domain",
+            "-2,-2,-2,2,2,2",
+            "--method",
+            "amp-taylor-gpu",
+            "--resident",
+            "--size",
+            "32x32",
+            "--animate",
+            "r=0.5:1.5:3",
+            "--out",
+            "frames/",
+            "--apng",
+            "all.png",
         ],
     );
     assert!(printed.contains("3 frames") && printed.contains("on the device"), "{printed}");

@@ -53,23 +53,25 @@ pub fn fill(tape: &Tape, normals: Normals, rays: Rays<'_>, hits: &mut Hits) -> W
         Normals::Stencil(_) => Work { points: 6, ..Work::default() },
     };
     let (bracket, certificate) = (&hits.bracket, &hits.certificate);
-    hits.normal.par_chunks_mut(1024).zip(hits.work.par_chunks_mut(1024)).enumerate().for_each(
-        |(chunk, (vectors, work))| {
-            let mut gradient = Gradient::new(tape, normals);
-            for (i, (vector, work)) in vectors.iter_mut().zip(work).enumerate() {
-                let index = 1024 * chunk + i;
-                *vector = Vec3::ZERO;
-                if !certificate[index].is_hit() {
-                    continue;
-                }
-                let [lo, hi] = bracket[index];
-                *vector = unit(gradient.at(rays.get(index).at(0.5 * (lo + hi))));
-                *work += each;
+    hits.normal.par_chunks_mut(1024).enumerate().for_each(|(chunk, vectors)| {
+        let mut gradient = Gradient::new(tape, normals);
+        for (i, vector) in vectors.iter_mut().enumerate() {
+            let index = 1024 * chunk + i;
+            *vector = Vec3::ZERO;
+            if !certificate[index].is_hit() {
+                continue;
             }
-        },
-    );
+            let [lo, hi] = bracket[index];
+            *vector = unit(gradient.at(rays.get(index).at(0.5 * (lo + hi))));
+        }
+    });
     let mut total = Work::default();
-    hits.certificate.iter().filter(|c| c.is_hit()).for_each(|_| total += each);
+    for index in (0..hits.len()).filter(|index| certificate[*index].is_hit()) {
+        total += each;
+        if let Some(work) = hits.work.get_mut(index) {
+            *work += each;
+        }
+    }
     total
 }
 

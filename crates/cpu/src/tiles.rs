@@ -1,5 +1,6 @@
 //! Work sharing: rays in tiles, tiles over threads.
 
+use std::borrow::Cow;
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
@@ -50,26 +51,17 @@ struct Answers {
 impl Answers {
     /// Rays that are no rays are counted and missed.
     fn of(tile: Tile<'_>, run: &impl Fn(&[Ray]) -> Vec<Hit>) -> Self {
-        let (mut indices, mut valid) = (Vec::with_capacity(CHUNK), Vec::with_capacity(CHUNK));
+        let (mut indices, mut rays) = tile.rays();
         let mut invalid = Vec::new();
-        widest(
-            #[inline(always)]
-            || {
-                tile.visit(
-                    #[inline(always)]
-                    |index, ray| {
-                        if ray.is_valid() {
-                            indices.push(index);
-                            valid.push(ray);
-                        } else {
-                            invalid.push(index);
-                        }
-                    },
-                );
-            },
-        );
-        let mut hits = run(&valid);
-        assert_eq!(hits.len(), valid.len(), "one answer a ray");
+        if !are_valid(&rays) {
+            let all = indices.into_iter().zip(rays.iter().copied());
+            let (valid, others): (Vec<_>, Vec<_>) = all.partition(|(_, ray)| ray.is_valid());
+            let (places, lines) = valid.into_iter().unzip();
+            (indices, rays) = (places, Cow::Owned(lines));
+            invalid = others.into_iter().map(|(index, _)| index).collect();
+        }
+        let mut hits = run(&rays);
+        assert_eq!(hits.len(), rays.len(), "one answer a ray");
         let no_ray = Work { nonfinite: 1, ..Work::default() };
         hits.extend(invalid.iter().map(|_| Hit::miss(Certificate::MISS, no_ray)));
         indices.extend(invalid);
@@ -116,28 +108,51 @@ pub fn tiles(rays: Rays<'_>) -> Vec<Tile<'_>> {
     }
 }
 
-impl Tile<'_> {
-    /// Shows every ray and its index, neighbours together.
-    #[inline(always)]
-    pub fn visit(self, mut see: impl FnMut(usize, Ray)) {
+impl<'a> Tile<'a> {
+    /// The indices of its rays and the rays, neighbours together.
+    pub fn rays(self) -> (Vec<usize>, Cow<'a, [Ray]>) {
         match self.0 {
             Part::Range { batch, start, end } => {
-                (start..end).for_each(|index| see(index, batch.rays[index]));
+                ((start..end).collect(), Cow::Borrowed(&batch.rays[start..end]))
             }
-            Part::Pixels { view, column, row } => {
-                let columns = column..(column + SIDE).min(view.width);
-                let rows = row..(row + SIDE).min(view.height);
-                for block_row in rows.clone().step_by(BLOCK[1]) {
-                    for block_column in columns.clone().step_by(BLOCK[0]) {
-                        for i in 0..BLOCK[0] * BLOCK[1] {
-                            let (x, y) = (block_column + place(i).0, block_row + place(i).1);
-                            if x < columns.end && y < rows.end {
-                                see(y * view.width + x, view.ray(x, y));
-                            }
-                        }
-                    }
+            Part::Pixels { view, column, row } => widest(
+                #[inline(always)]
+                || pixels(view, column, row),
+            ),
+        }
+    }
+}
+
+/// The rays of a tile's pixels, block by block.
+#[inline(always)]
+fn pixels(view: &View, column: usize, row: usize) -> (Vec<usize>, Cow<'static, [Ray]>) {
+    let (mut indices, mut rays) = (Vec::with_capacity(CHUNK), Vec::with_capacity(CHUNK));
+    let columns = column..(column + SIDE).min(view.width);
+    let rows = row..(row + SIDE).min(view.height);
+    for block_row in rows.clone().step_by(BLOCK[1]) {
+        for block_column in columns.clone().step_by(BLOCK[0]) {
+            for i in 0..BLOCK[0] * BLOCK[1] {
+                let (x, y) = (block_column + place(i).0, block_row + place(i).1);
+                if x < columns.end && y < rows.end {
+                    indices.push(y * view.width + x);
+                    rays.push(view.ray(x, y));
                 }
             }
         }
     }
+    (indices, Cow::Owned(rays))
+}
+
+/// Are all of them rays?
+fn are_valid(rays: &[Ray]) -> bool {
+    widest(
+        #[inline(always)]
+        || {
+            rays.iter().fold(
+                true,
+                #[inline(always)]
+                |valid, ray| valid & ray.is_valid(),
+            )
+        },
+    )
 }

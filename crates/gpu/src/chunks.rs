@@ -66,7 +66,7 @@ pub(crate) fn cast<T: Traffic>(
     let tiles = tiles::tiles(rays);
     let mut buffers = Buffers::<T>::new(job.device, 0)?;
     let (mut next, mut size) = (0, FIRST);
-    let mut time = None;
+    let (mut work, mut time) = (Work::default(), None);
     while next < tiles.len() {
         let chunk = &tiles[next..(next + size).min(tiles.len())];
         next += chunk.len();
@@ -74,6 +74,7 @@ pub(crate) fn cast<T: Traffic>(
         let (ready, answered) = prepare(traffic, chunk);
         for (index, hit) in answered.iter().flatten() {
             hits.set(*index, *hit);
+            work += hit.work;
         }
         let count = ready.len() + answered.iter().map(Vec::len).sum::<usize>();
         let mut waiting = ready;
@@ -98,7 +99,10 @@ pub(crate) fn cast<T: Traffic>(
             waiting = Vec::new();
             for (index, result) in read {
                 match result {
-                    Ok(hit) => hits.set(index, hit),
+                    Ok(hit) => {
+                        hits.set(index, hit);
+                        work += hit.work;
+                    }
                     Err(ready) => waiting.push((index, ready)),
                 }
             }
@@ -112,7 +116,7 @@ pub(crate) fn cast<T: Traffic>(
         }
         progress.advance(count)?;
     }
-    Ok(Report { work: hits.total_work(), device_time: time })
+    Ok(Report { work, device_time: time })
 }
 
 type Indexed<T> = Vec<(usize, T)>;
@@ -126,7 +130,8 @@ fn prepare<T: Traffic>(
         .par_iter()
         .map(|tile| {
             let (mut ready, mut answered) = (Vec::new(), Vec::new());
-            tile.visit(|index, ray| {
+            let (indices, rays) = tile.rays();
+            for (index, ray) in indices.into_iter().zip(rays.iter().copied()) {
                 let result = if ray.is_valid() {
                     traffic.ready(ray)
                 } else {
@@ -137,7 +142,7 @@ fn prepare<T: Traffic>(
                     Ok(ray) => ready.push((index, ray)),
                     Err(hit) => answered.push((index, hit)),
                 }
-            });
+            }
             (ready, answered)
         })
         .collect();

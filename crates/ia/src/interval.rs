@@ -184,22 +184,27 @@ fn zero<R: Real>(x: R) -> R {
     x.splat(R::Scalar::from_f64(0.0))
 }
 
+/// A product that is not negative, once it is rounded down.
+#[inline(always)]
+fn nonnegative<R: Real>(product: R) -> R {
+    if R::OUTWARD { product.max(zero(product)) } else { product }
+}
+
 /// `[a^n rounded down, b^n rounded up]` for `a, b >= 0`, `n >= 1`. Without closures, which would lose
 /// the instruction set.
 #[inline(always)]
 fn powers<R: Real>(a: R, b: R, n: u32) -> [R; 2] {
-    let zero = zero(a);
     let (mut a, mut b) = (a, b);
     let mut rest = n >> n.trailing_zeros();
     for _ in 0..n.trailing_zeros() {
-        (a, b) = (a.mul_down(a).max(zero), b.mul_up(b));
+        (a, b) = (nonnegative(a.mul_down(a)), b.mul_up(b));
     }
     let (mut down, mut up) = (a, b);
     rest >>= 1;
     while rest > 0 {
-        (a, b) = (a.mul_down(a).max(zero), b.mul_up(b));
+        (a, b) = (nonnegative(a.mul_down(a)), b.mul_up(b));
         if rest & 1 == 1 {
-            (down, up) = (down.mul_down(a).max(zero), up.mul_up(b));
+            (down, up) = (nonnegative(down.mul_down(a)), up.mul_up(b));
         }
         rest >>= 1;
     }
@@ -306,7 +311,7 @@ impl<R: Real, F: Flavor> Number for Interval<R, F> {
     #[inline(always)]
     fn sqr(self) -> Self {
         let (mig, mag) = (self.mignitude(), self.magnitude());
-        Self::new(mig.mul_down(mig).max(zero(mig)), mag.mul_up(mag)).empty_where(self)
+        Self::new(nonnegative(mig.mul_down(mig)), mag.mul_up(mag)).empty_where(self)
     }
 
     #[inline(always)]

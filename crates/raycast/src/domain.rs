@@ -32,32 +32,37 @@ struct Crossing {
 }
 
 impl Crossing {
-    const ALL: Self = Self { enter: [f64::NEG_INFINITY; 2], leave: [f64::INFINITY; 2] };
     const NONE: Self = Self { enter: [f64::INFINITY; 2], leave: [f64::NEG_INFINITY; 2] };
-    const UNKNOWN: Self = Self {
-        enter: [f64::NEG_INFINITY, f64::INFINITY],
-        leave: [f64::NEG_INFINITY, f64::INFINITY],
-    };
 
-    /// The crossing of `min <= o + t d <= max`.
+    /// The crossing of `min <= o + t d <= max`. Without branches, so that a loop over lines becomes
+    /// vectors.
     ///
     /// `(bound - o) (1/d)` has three roundings, and the ends of its range one more: less than 8 units of
     /// 2^-53, or the smallest normal number where the product underflows.
     #[inline(always)]
     fn new(o: f64, d: f64, min: f64, max: f64) -> Self {
-        if d == 0.0 {
-            return if min <= o && o <= max { Self::ALL } else { Self::NONE };
-        }
         let inverse = 1.0 / d;
         let (a, b) = ((min - o) * inverse, (max - o) * inverse);
-        if !(a.abs() + b.abs() < f64::INFINITY) {
-            return Self::UNKNOWN;
-        }
-        let around = |t: f64| {
-            let error = t.abs() * UNITS_8 + f64::MIN_POSITIVE;
-            [t - error, t + error]
+        let (near, far) = (smaller(a, b), larger(a, b));
+        let error = |t: f64| t.abs() * UNITS_8 + f64::MIN_POSITIVE;
+        let is_known = a.abs() + b.abs() < f64::INFINITY;
+        // Where the line runs along the slab, it is inside for ever or never.
+        let is_along = d == 0.0;
+        let entered = if (min <= o) & (o <= max) { f64::NEG_INFINITY } else { f64::INFINITY };
+        let end = |known: f64, unknown: f64, along: f64| {
+            let across = if is_known { known } else { unknown };
+            if is_along { along } else { across }
         };
-        Self { enter: around(smaller(a, b)), leave: around(larger(a, b)) }
+        Self {
+            enter: [
+                end(near - error(near), f64::NEG_INFINITY, entered),
+                end(near + error(near), f64::INFINITY, entered),
+            ],
+            leave: [
+                end(far - error(far), f64::NEG_INFINITY, -entered),
+                end(far + error(far), f64::INFINITY, -entered),
+            ],
+        }
     }
 
     /// Cuts the set with another.
@@ -149,14 +154,53 @@ impl Domain {
         part.cut(Crossing::new(o.y, d.y, self.min.y, self.max.y));
         part.cut(Crossing::new(o.z, d.z, self.min.z, self.max.z));
         if let Some(radius) = self.ball {
-            part.cut(
-                self.chord(ray, radius).unwrap_or_else(|| self.chord_by_intervals(ray, radius)),
-            );
+            part.cut(self.chord(ray, radius));
         }
         let Crossing { enter: [from, surely_from], leave: [surely_to, to] } = part;
         let inner = [surely_from, surely_to];
         (from <= to)
             .then(|| Clip { outer: [from, to], inner: (inner[0] <= inner[1]).then_some(inner) })
+    }
+
+    /// [`Clip::outer`] of each ray, the first end above the last where there is none: as
+    /// [`clip`](Self::clip) has it, but in loops that become vectors. The ends of a place without a ray mean
+    /// nothing.
+    ///
+    /// # Panics
+    /// If there are more than `N` rays.
+    #[inline(always)]
+    pub fn outer<const N: usize>(&self, rays: &[Ray], range: [f64; 2]) -> [[f64; N]; 2] {
+        let (mut o, mut d) = ([[0.0; N]; 3], [[0.0; N]; 3]);
+        for (i, ray) in rays.iter().enumerate() {
+            let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+            [o[0][i], o[1][i], o[2][i]] = [origin.x, origin.y, origin.z];
+            [d[0][i], d[1][i], d[2][i]] = [direction.x, direction.y, direction.z];
+        }
+        let is_range = range[0] <= range[1];
+        let [from, to] = if is_range { range } else { [f64::INFINITY, f64::NEG_INFINITY] };
+        let (mut from, mut to) = ([from; N], [to; N]);
+        for axis in 0..3 {
+            let (o, d, min, max) = (&o[axis], &d[axis], self.min[axis], self.max[axis]);
+            for i in 0..N {
+                let Crossing { enter, leave } = Crossing::new(o[i], d[i], min, max);
+                from[i] = larger(from[i], enter[0]);
+                to[i] = smaller(to[i], leave[1]);
+            }
+        }
+        if let Some(radius) = self.ball {
+            for (i, ray) in rays.iter().enumerate() {
+                let Crossing { enter, leave } = self.chord(*ray, radius);
+                from[i] = larger(from[i], enter[0]);
+                to[i] = smaller(to[i], leave[1]);
+            }
+        }
+        [from, to]
+    }
+
+    /// Where a ray crosses the ball.
+    #[inline(always)]
+    fn chord(&self, ray: Ray, radius: f64) -> Crossing {
+        self.chord_by_floats(ray, radius).unwrap_or_else(|| self.chord_by_intervals(ray, radius))
     }
 
     /// The roots of `|m + t d|^2 = r^2`, with m from the centre to the origin, in plain arithmetic
@@ -167,7 +211,7 @@ impl Domain {
     /// <= q`, the discriminant `b^2 - a (|m|^2 - r^2)` is off by at most 25 u q. For the quotients by
     /// a the errors add up to less than 12 u (p + root) / a.
     #[inline(always)]
-    fn chord(&self, ray: Ray, radius: f64) -> Option<Crossing> {
+    fn chord_by_floats(&self, ray: Ray, radius: f64) -> Option<Crossing> {
         let [mut a, mut b, mut p, mut mm, mut ww] = [0.0_f64; 5];
         for axis in 0..3 {
             let (o, d) = (f64::from(ray.origin[axis]), f64::from(ray.direction[axis]));

@@ -174,7 +174,7 @@ pub struct Hits {
     /// The unit normal, along the function's gradient; zero for a miss, or where there is none.
     /// Empty unless asked for.
     pub normal: Vec<Vec3>,
-    /// What each answer cost.
+    /// What each answer cost. Empty if not asked for.
     pub work: Vec<Work>,
 }
 
@@ -191,6 +191,12 @@ impl Hits {
         }
     }
 
+    /// The same without room for what each answer cost: a third of the memory, where the
+    /// [report](crate::Report)'s sum is enough.
+    pub fn without_work(request: Request, rays: usize) -> Self {
+        Self { work: Vec::new(), ..Self::new(request, rays) }
+    }
+
     /// How many answers.
     pub fn len(&self) -> usize {
         self.bracket.len()
@@ -205,19 +211,21 @@ impl Hits {
     pub fn set(&mut self, index: usize, hit: Hit) {
         self.bracket[index] = hit.bracket;
         self.certificate[index] = hit.certificate;
-        self.work[index] = hit.work;
+        if let Some(work) = self.work.get_mut(index) {
+            *work = hit.work;
+        }
     }
 
-    /// An answer, without its normal.
+    /// An answer, without its normal. No work, if that was not asked for.
     pub fn get(&self, index: usize) -> Hit {
         Hit {
             bracket: self.bracket[index],
             certificate: self.certificate[index],
-            work: self.work[index],
+            work: self.work.get(index).copied().unwrap_or_default(),
         }
     }
 
-    /// The work of all answers.
+    /// The work of all answers, if it was asked for.
     pub fn total_work(&self) -> Work {
         let mut total = Work::default();
         self.work.iter().for_each(|w| total += *w);

@@ -35,10 +35,12 @@ impl Ray {
         std::array::from_fn(|axis| Interval::point(o[axis]) + t * Interval::point(d[axis]))
     }
 
-    /// Are all numbers finite, and is there a direction? Methods answer `miss` for other rays.
+    /// Are all numbers finite, and is there a direction? Methods answer `miss` for other rays. Without
+    /// branches, so that a loop over rays becomes vectors.
     #[inline(always)]
     pub fn is_valid(self) -> bool {
-        self.origin.is_finite() && self.direction.is_finite() && self.direction != Vec3::ZERO
+        let finite = self.origin.is_finite_mask() & self.direction.is_finite_mask();
+        finite.all() & self.direction.cmpne(Vec3::ZERO).any()
     }
 }
 

@@ -38,6 +38,12 @@ fn holds(domain: &Domain, ray: Ray, t: f64) -> bool {
 /// Checks a clip against the judge at the ends, next to them, and at the given places.
 fn judge(domain: &Domain, ray: Ray, range: [f64; 2], places: &[f64]) {
     let clip = domain.clip(ray, range);
+    // Of many rays at once, the same bits.
+    let mut rays = [Ray { origin: ray.direction, direction: ray.origin }; 3];
+    rays[1] = ray;
+    let [from, to] = domain.outer::<4>(&rays, range);
+    let outer = (from[1] <= to[1]).then_some([from[1], to[1]]);
+    assert_eq!(outer.map(|ends| ends.map(f64::to_bits)), clip.map(|c| c.outer.map(f64::to_bits)));
     let mut places: Vec<f64> = places.to_vec();
     // Where the ray passes the faces, to the nearest double, and its point nearest to the centre.
     let d = ray.direction.as_dvec3();

@@ -5,8 +5,8 @@ use zeroset_raycast::{Certificate, Hit, Work};
 use super::clock::Clock;
 use super::cut::{Bounds, Cut};
 use super::march::{Judge, Marcher, Reason, Verdict};
+use super::method::{Bisection, Finishing};
 use super::settler::{Goal, Settled, Settler};
-use crate::bisection::Bisection;
 use crate::implicit::Implicit;
 
 /// The answers of a tile, and the settler that makes them.
@@ -15,6 +15,7 @@ pub(super) struct Answers<'a> {
     bounds: &'a Bounds,
     /// One a ray.
     pub hits: Vec<Hit>,
+    /// One a ray, if there is a finish.
     settled: Vec<Settled>,
 }
 
@@ -27,9 +28,13 @@ impl<'a> Answers<'a> {
         goal: &'a Goal,
         rays: usize,
     ) -> Self {
-        let settler = Settler::new(method, implicit, goal);
-        let hits = vec![method.miss(); rays];
-        Self { settler, bounds, hits, settled: vec![Settled::default(); rays] }
+        let certify = method.finish == Finishing::Certify;
+        Self {
+            settler: Settler::new(method, implicit, goal),
+            bounds,
+            hits: vec![method.miss(); rays],
+            settled: vec![Settled::default(); if certify { rays } else { 0 }],
+        }
     }
 }
 
@@ -44,7 +49,8 @@ impl Judge for Answers<'_> {
     ) -> Verdict {
         let Marcher { ray, line, range, .. } = *marcher;
         let clock = Clock::new(marcher, cut, self.bounds);
-        let (hit, settled) = (&mut self.hits[ray], &mut self.settled[ray]);
+        let (hit, mut none) = (&mut self.hits[ray], Settled::default());
+        let settled = self.settled.get_mut(ray).unwrap_or(&mut none);
         let piece = clock.range(piece);
         let next = self.settler.settle(hit, settled, line, range, piece, clock.whole, reason);
         if next.is_none() && dropped {

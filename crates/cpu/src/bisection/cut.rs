@@ -69,6 +69,8 @@ impl Axis {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     ends: [[f64; 2]; 3],
+    /// How far it goes, rounded up, by axis.
+    lengths: [f64; 3],
     /// Depths at which slabs are about as thin as coordinates are rounded, by axis.
     finest: [u32; 3],
     /// How finely coordinates are rounded, at most.
@@ -79,11 +81,12 @@ impl Bounds {
     pub(super) fn new<S: Scalar>(domain: &Domain) -> Self {
         let ends = [0, 1, 2]
             .map(|axis| S::enclose_range(domain.min[axis], domain.max[axis]).map(S::to_f64));
+        let lengths = ends.map(|[lo, hi]| (Interval::<_, Set>::point(hi) - Interval::point(lo)).hi);
         let largest = ends.iter().flatten().map(|x| x.abs()).fold(0.0, f64::max);
         let epsilon = if size_of::<S>() == 4 { f64::from(f32::EPSILON) } else { f64::EPSILON };
         let resolution = 4.0 * epsilon * largest;
         let finest = ends.map(|[lo, hi]| ((hi - lo) / resolution).log2() as u32);
-        Self { ends, finest, resolution }
+        Self { ends, lengths, finest, resolution }
     }
 
     /// The box.
@@ -108,7 +111,6 @@ impl Bounds {
 
     /// How far it goes.
     pub(super) fn length(&self, axis: Axis) -> f64 {
-        let [lo, hi] = self.ends[axis.k];
-        (Interval::<_, Set>::point(hi) - Interval::point(lo)).hi
+        self.lengths[axis.k]
     }
 }

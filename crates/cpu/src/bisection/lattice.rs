@@ -94,19 +94,20 @@ impl<R: Packet, C: Cutting> Lattice<R, C> {
             Cut::Slabs(axis) => axis.all(),
             Cut::Rays => [0, 1, 2],
         };
+        // By axis; what follows is by place.
         let mut o = [[0.0_f64; 64]; 3];
         let mut d = [[1.0_f64; 64]; 3];
         let mut t = [[0.0_f64; 64]; 2];
         for i in 0..R::LANES {
             let Marcher { line, range, .. } = &packet[i.min(packet.len() - 1)];
-            let (origin, direction) = (line.origin.to_array(), line.direction.to_array());
-            for (place, axis) in axes.into_iter().enumerate() {
-                o[place][i] = f64::from(origin[axis]);
-                d[place][i] = f64::from(direction[axis]);
-            }
+            let (origin, direction) = (line.origin.as_dvec3(), line.direction.as_dvec3());
+            [o[0][i], o[1][i], o[2][i]] = origin.to_array();
+            [d[0][i], d[1][i], d[2][i]] = direction.to_array();
             t[0][i] = range[0];
             t[1][i] = range[1];
         }
+        let [k, u, v] = axes;
+        let (o, d) = ([&o[k], &o[u], &o[v]], [&d[k], &d[u], &d[v]]);
         let (start, length, first) = match cut {
             Cut::Slabs(axis) => (bounds.start(axis), bounds.length(axis), 1),
             Cut::Rays => (0.0, 0.0, 0),

@@ -166,6 +166,11 @@ struct Limits {
     poles: Poles,
 }
 
+/// The mask of so many lanes from the first on, at least one.
+fn lanes(count: usize) -> u64 {
+    u64::MAX >> (64 - count)
+}
+
 /// Marches one packet. Every ray descends into a piece only if its own function may vanish there.
 #[inline(always)]
 fn march<R: Packet, F: Flavor, C: Cutting>(
@@ -183,10 +188,13 @@ fn march<R: Packet, F: Flavor, C: Cutting>(
     let one = zero.splat(R::Scalar::from_f64(1.0));
     let narrow = zero.splat(R::Scalar::from_f64(delta));
     let mut last = [0_u64; MAX_DEPTH as usize + 1];
-    for (lane, marcher) in packet.iter().enumerate() {
-        last[marcher.depth as usize] |= 1 << lane;
+    // Run by run, since rays mostly share their depth, and one lane's store would wait for the other's.
+    let mut from = 0;
+    for run in packet.chunk_by(|a, b| a.depth == b.depth) {
+        last[run[0].depth as usize] |= lanes(run.len()) << from;
+        from += run.len();
     }
-    let mut alive = if packet.len() == 64 { u64::MAX } else { (1 << packet.len()) - 1 };
+    let mut alive = lanes(packet.len());
     let mut dropped = 0_u64;
     let (mut drops, most) = (zero, zero.splat(R::Scalar::from_f64(MOST_DROPPED)));
     let mut evaluations = zero;

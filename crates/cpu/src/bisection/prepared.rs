@@ -14,6 +14,9 @@ use super::settler::Goal;
 use crate::implicit::Implicit;
 use crate::{normals, tiles};
 
+/// How many rays are clipped to the domain at once.
+const CLIPPED: usize = 32;
+
 pub(super) struct Prepared {
     method: Bisection,
     implicit: Implicit,
@@ -101,22 +104,29 @@ impl Prepared {
     fn groups(&self, rays: &[Ray], goal: &Goal) -> Vec<(Cut, Vec<Marcher>)> {
         let mut groups: Vec<(Cut, Vec<Marcher>)> = Vec::with_capacity(Axis::COUNT);
         let mut last = 0;
-        for (ray, line) in rays.iter().enumerate() {
-            let Some(clip) = self.implicit.domain.clip(*line, goal.range) else { continue };
-            let axis = Axis::of(*line);
-            let cut = match self.method.algorithm {
-                Algorithm::Kmarch => Cut::Slabs(axis),
-                Algorithm::Tbisect | Algorithm::Mitchell => Cut::Rays,
-            };
-            // Neighbours mostly share their axis.
-            if groups.get(last).is_none_or(|(a, _)| *a != cut) {
-                last = groups.iter().position(|(a, _)| *a == cut).unwrap_or_else(|| {
-                    groups.push((cut, Vec::with_capacity(rays.len())));
-                    groups.len() - 1
-                });
+        for (block, lines) in rays.chunks(CLIPPED).enumerate() {
+            let [from, to] = self.implicit.domain.outer::<CLIPPED>(lines, goal.range);
+            for (i, line) in lines.iter().enumerate() {
+                let range = [from[i], to[i]];
+                if range[0] > range[1] {
+                    continue;
+                }
+                let axis = Axis::of(*line);
+                let cut = match self.method.algorithm {
+                    Algorithm::Kmarch => Cut::Slabs(axis),
+                    Algorithm::Tbisect | Algorithm::Mitchell => Cut::Rays,
+                };
+                // Neighbours mostly share their axis.
+                if groups.get(last).is_none_or(|(a, _)| *a != cut) {
+                    last = groups.iter().position(|(a, _)| *a == cut).unwrap_or_else(|| {
+                        groups.push((cut, Vec::with_capacity(rays.len())));
+                        groups.len() - 1
+                    });
+                }
+                let depth = self.depth(*line, axis, cut, range, goal.stop);
+                let ray = CLIPPED * block + i;
+                groups[last].1.push(Marcher { ray, line: *line, range, depth });
             }
-            let depth = self.depth(*line, axis, cut, clip.outer, goal.stop);
-            groups[last].1.push(Marcher { ray, line: *line, range: clip.outer, depth });
         }
         groups
     }

@@ -141,6 +141,23 @@ fn normals_by_differences_are_near_the_gradient() {
 }
 
 #[test]
+fn work_is_kept_by_ray_only_where_that_is_asked_for() {
+    let scene = scene("x^2+2*y^2+z^2-1", 1.25);
+    let view = view(&scene, 40, 40);
+    let intersector = Bisection::kmarch().prepare(&scene).expect("a scene");
+    let cast = |mut hits: Hits| {
+        let cast = intersector.intersect(Rays::View(&view), &mut hits, &Progress::new());
+        (hits, cast.expect("answers").work)
+    };
+    let (with, total) = cast(Hits::new(Request::FirstWithNormal, 1600));
+    let (without, same) = cast(Hits::without_work(Request::FirstWithNormal, 1600));
+    assert_eq!((total, with.total_work()), (same, total));
+    assert!(without.work.is_empty() && total.gradients > 0);
+    assert_eq!((with.bracket, with.certificate), (without.bracket, without.certificate));
+    assert_eq!(with.normal, without.normal);
+}
+
+#[test]
 fn mitchell_ends_where_the_function_is_monotone() {
     let scene = scene("x^2+y^2+z^2-1", 1.25);
     let through = ray([-3.0, 0.1, 0.2], [1.0, 0.01, 0.0]);
