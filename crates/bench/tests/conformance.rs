@@ -40,6 +40,7 @@ fn every_fault_is_found() {
         (Fault::OnRequest, "normals change no answer"),
         (Fault::AnyProvesMisses, "any root agrees with the first where proven"),
         (Fault::ReportsNoWork, "the report holds the work of all answers"),
+        (Fault::CountsByRay, "answers do not depend on whether work is kept by ray"),
         (Fault::WorksForNothing, "the report holds the work of all answers"),
         (Fault::NeverStops, "work that is asked to stop does"),
         (Fault::TakesAnyKnob, "unknown knobs are errors"),

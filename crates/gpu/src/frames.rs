@@ -7,12 +7,20 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use zeroset_cpu::Implicit;
 use zeroset_cpu::amp::Settings;
-use zeroset_expr::Parameters;
-use zeroset_raycast::{Error, Method, Progress, Projection, Scene, View};
+use zeroset_expr::{Parameters, Tape};
+use zeroset_raycast::{Error, Method, Progress, Projection, Scene, Unsupported, View};
 
 use crate::amp::{AmpGpu, SentMarch, module};
 use crate::compiled::Compiled;
 use crate::device::{AsBinding, Buffer, DeviceError};
+
+/// The whole shader of frames of a function, as it is compiled for a device.
+///
+/// # Errors
+/// If an operation has no form on devices.
+pub fn shader(tape: &Tape) -> Result<String, Unsupported> {
+    Ok(module(tape)?.shader(KERNEL))
+}
 
 const KERNEL: &str =
     concat!(include_str!("shaders/march.wgsl"), include_str!("shaders/frame.wgsl"));

@@ -15,7 +15,7 @@ mod bounded;
 mod chunks;
 mod compiled;
 pub mod device;
-mod frames;
+pub mod frames;
 pub mod program;
 mod settings;
 

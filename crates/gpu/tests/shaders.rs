@@ -47,8 +47,9 @@ fn every_operation() -> Vec<(String, Tape)> {
 #[test]
 fn shaders_of_points_are_valid() {
     for (name, tape) in tapes().into_iter().chain(every_operation()) {
-        let source = zeroset_gpu::amp::shader(&tape).unwrap();
-        validate(&source).unwrap_or_else(|e| panic!("{name}: {e}"));
+        for source in [zeroset_gpu::amp::shader(&tape), zeroset_gpu::frames::shader(&tape)] {
+            validate(&source.unwrap()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        }
     }
 }
 

@@ -104,6 +104,7 @@ impl Intersector for Prepared {
         assert_eq!(rays.len(), hits.len(), "one answer a ray");
         let mut values = self.tape.evaluator(&Plain(0.0));
         let mut gradients = self.tape.evaluator(&Dual::constant_value(Plain(0.0)));
+        let mut work = Work::default();
         for i in 0..rays.len() {
             let ray = rays.get(i);
             let mut hit = self.cast(ray, rays.range(), &mut values);
@@ -111,9 +112,10 @@ impl Intersector for Prepared {
                 hits.normal[i] = normal(ray, &mut hit, &mut gradients);
             }
             hits.set(i, hit);
+            work += hit.work;
             progress.advance(1)?;
         }
-        Ok(Report { work: hits.total_work(), device_time: None })
+        Ok(Report { work, device_time: None })
     }
 }
 

@@ -1,7 +1,7 @@
 //! What all rules share: the method, the scene, the failures so far.
 
 use zeroset_raycast::{
-    Camera, Error, Hits, Intersector, Method, Progress, Rays, Request, Scene, View,
+    Camera, Error, Hits, Intersector, Method, Progress, Rays, Request, Scene, View, Work,
 };
 
 use super::Failure;
@@ -37,6 +37,23 @@ impl<'a> Suite<'a> {
         View::new(Camera::facing(&self.scene.domain), 37, 29)
     }
 
+    /// The same answers and the same sum of work without room for the work of each ray.
+    fn ask_without_work(
+        &mut self,
+        intersector: &dyn Intersector,
+        rays: Rays<'_>,
+        expected: &Hits,
+        work: Work,
+    ) {
+        let mut hits = Hits::without_work(expected.request, rays.len());
+        let Ok(report) = intersector.intersect(rays, &mut hits, &Progress::new()) else { return };
+        let same = hits.bracket == expected.bracket && hits.certificate == expected.certificate;
+        if !same || report.work != work {
+            let detail = format!("{:?}, not {work:?}; the same answers: {same}", report.work);
+            self.fail("answers do not depend on whether work is kept by ray", detail);
+        }
+    }
+
     /// The answers; an error is a failure.
     pub(super) fn ask(
         &mut self,
@@ -50,6 +67,10 @@ impl<'a> Suite<'a> {
                 if report.work != hits.total_work() {
                     let detail = format!("{:?}, but {:?}", report.work, hits.total_work());
                     self.fail("the report holds the work of all answers", detail);
+                }
+                // Once is enough: it takes as long as the answers.
+                if matches!(rays, Rays::View(_)) && request == Request::First {
+                    self.ask_without_work(intersector, rays, &hits, report.work);
                 }
                 Some(hits)
             }

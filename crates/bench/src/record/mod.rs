@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
+use zeroset_gpu::{Choice, device};
 use zeroset_raycast::{Camera, Domain, Projection, Rays, Scene, View, Work};
 
 use crate::machine::now;
@@ -35,6 +36,8 @@ pub struct Record {
     pub cpu: String,
     /// The instruction set that lanes use.
     pub isa: String,
+    /// The device that the method ran on, with its driver; empty if it has none.
+    pub device: String,
     /// The operating system and architecture.
     pub os: String,
     /// Worker threads.
@@ -176,6 +179,11 @@ impl Record {
     fn with_run(mut self, run: &Run) -> Self {
         self.method = run.method.into();
         self.knobs = pairs(run.knobs.iter().map(|k| (k.name, k.value.as_str())));
+        if let Some(knob) = run.knobs.iter().find(|knob| knob.name == "device") {
+            self.device = device::find(&Choice::read(&knob.value))
+                .map(|device| format!("{}, {}", device.name, device.driver))
+                .unwrap_or_default();
+        }
         let outcome = match &run.outcome {
             Ok(outcome) => outcome,
             Err(error) => {

@@ -106,6 +106,7 @@ pub(crate) enum Fault {
     AnyProvesMisses,
     // Manners.
     ReportsNoWork,
+    CountsByRay,
     WorksForNothing,
     NeverStops,
     TakesAnyKnob,
@@ -199,6 +200,7 @@ impl Intersector for Prepared {
         hits: &mut Hits,
         progress: &Progress,
     ) -> Result<Report, Error> {
+        let mut work = Work::default();
         for i in 0..rays.len() {
             let ray = rays.get(i);
             let hit = if ray.is_valid() {
@@ -208,6 +210,7 @@ impl Intersector for Prepared {
                 Hit::miss(Certificate::MISS, Work { nonfinite, ..Work::default() })
             };
             hits.set(i, hit);
+            work += hit.work;
             if hits.request == Request::FirstWithNormal && hit.certificate.is_hit() {
                 let length = match self.fault {
                     Fault::LongNormals => 1.01,
@@ -221,9 +224,11 @@ impl Intersector for Prepared {
         if self.fault != Fault::NeverStops {
             stopped?;
         }
-        let mut work = hits.total_work();
         if self.fault == Fault::ReportsNoWork {
             work = Work::default();
+        }
+        if self.fault == Fault::CountsByRay {
+            work = hits.total_work();
         }
         if self.fault == Fault::WorksForNothing && rays.is_empty() {
             work.points = 1;

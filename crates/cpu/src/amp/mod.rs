@@ -267,9 +267,10 @@ impl Intersector for Prepared {
             // knows only when bisection has not refuted the step.
             settings.bisections = 0;
         }
-        tiles::cast(rays, hits, progress, |tile| self.cast(tile, rays.range(), &settings))?;
-        normals::fill(&self.implicit.tape, Normals::Gradient, rays, hits);
-        Ok(Report { work: hits.total_work(), device_time: None })
+        let cast = |tile: &[Ray]| self.cast(tile, rays.range(), &settings);
+        let mut report = tiles::cast(rays, hits, progress, cast)?;
+        report.work += normals::fill(&self.implicit.tape, Normals::Gradient, rays, hits);
+        Ok(report)
     }
 }
 

@@ -152,7 +152,7 @@ impl Intersector for PreparedReference {
             Request::Any => f64::INFINITY,
             Request::First | Request::FirstWithNormal => self.method.width,
         };
-        tiles::cast(rays, hits, progress, |tile| {
+        let mut report = tiles::cast(rays, hits, progress, |tile| {
             let mut ladder = self.ladder();
             tile.iter()
                 .map(|&ray| {
@@ -165,7 +165,7 @@ impl Intersector for PreparedReference {
                 })
                 .collect()
         })?;
-        normals::fill(&self.tapes.double, Normals::Gradient, rays, hits);
-        Ok(Report { work: hits.total_work(), device_time: None })
+        report.work += normals::fill(&self.tapes.double, Normals::Gradient, rays, hits);
+        Ok(report)
     }
 }
