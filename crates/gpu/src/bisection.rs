@@ -8,7 +8,7 @@ use zeroset_cpu::{Bisection, Finishing, Goal, Implicit, Settled, Settler, Stop, 
 use zeroset_expr::{Parameters, Tape};
 use zeroset_ia::{Interval, Rounding, Scalar, Set};
 use zeroset_raycast::{
-    Certificate, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray, Rays,
+    Certificate, Domain, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray, Rays,
     Report, Scene, Unsupported, Work, knob,
 };
 
@@ -170,8 +170,8 @@ struct Marcher {
     direction: [f32; 3],
     length: f32,
     unit: f64,
-    /// Does the device have exactly this ray?
-    exact: bool,
+    /// Does the device have exactly this ray, within the box where its intervals may be trusted?
+    trusted: bool,
     /// The piece to go on with.
     index: u32,
     depth: u32,
@@ -185,7 +185,13 @@ struct Marcher {
 type I = Interval<f64, Set>;
 
 impl Marcher {
-    fn new(ray: Ray, range: [f64; 2], depth: impl Fn(f64) -> u32, miss: Hit) -> Self {
+    fn new(
+        ray: Ray,
+        range: [f64; 2],
+        domain: &Domain,
+        depth: impl Fn(f64) -> u32,
+        miss: Hit,
+    ) -> Self {
         // A power of two makes the largest component one of [1, 2): exact, but for the tiniest of others.
         let largest = f64::from(ray.direction.abs().max_element());
         let scale = 2.0_f64.powi(-(largest.log2().floor() as i32));
@@ -199,7 +205,13 @@ impl Marcher {
         let whole = (I::point(range[1]) - I::point(range[0])) * I::point(scale.recip());
         let length = (whole.hi as f32).next_up();
         let is_normal = |x: f32| x == 0.0 || x.is_normal();
-        let exact = DVec3::from(direction.map(f64::from)) == scaled
+        let is_inside = bounded::around(domain).into_iter().enumerate().all(|(axis, [lo, hi])| {
+            let [from, to] = base[axis].map(f64::from);
+            let step = f64::from(length) * scaled[axis];
+            lo <= from.min(from + step) && to.max(to + step) <= hi
+        });
+        let trusted = is_inside
+            && DVec3::from(direction.map(f64::from)) == scaled
             && direction.into_iter().all(is_normal)
             && base.iter().flatten().all(|x| x.is_finite())
             && length.is_finite()
@@ -212,7 +224,7 @@ impl Marcher {
             direction,
             length,
             unit: scale,
-            exact,
+            trusted,
             index: 0,
             depth: 0,
             last,
@@ -315,7 +327,8 @@ impl<'a> Traffic for March<'a> {
     fn ready(&self, ray: Ray) -> Result<Marcher, Hit> {
         let miss = self.method.miss();
         let clip = self.implicit.domain.clip(ray, self.goal.range).ok_or(miss)?;
-        Ok(Marcher::new(ray, clip.outer, |length| self.depth(length), miss))
+        let depth = |length| self.depth(length);
+        Ok(Marcher::new(ray, clip.outer, &self.implicit.domain, depth, miss))
     }
 
     fn sent(&self, marcher: &Marcher) -> SentLine {
@@ -360,7 +373,7 @@ impl<'a> Traffic for March<'a> {
                 }
             }
         }
-        if !marcher.exact {
+        if !marcher.trusted {
             marcher.hit.certificate = marcher.hit.certificate.without(Certificate::FIRST);
         }
         Ok(marcher.hit)

@@ -20,14 +20,11 @@ pub(crate) fn check(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
              throughout in single precision: use a CPU method"
         )))
     };
-    // Boxes of a ray reach a few units in the last place beyond the domain.
     let reach = domain.min.abs().max(domain.max.abs()).max_element();
     if !(reach < LARGEST && domain.longest_side() > LARGEST.recip()) {
         return refused("coordinates are too large or too small");
     }
-    let beyond = reach * 2.0_f64.powi(-18);
-    let sides = [0, 1, 2]
-        .map(|axis| f32::enclose_range(domain.min[axis] - beyond, domain.max[axis] + beyond));
+    let sides = around(domain).map(|[lo, hi]| f32::enclose_range(lo, hi));
 
     let mut bounded = true;
     let mut defined = true;
@@ -59,6 +56,12 @@ pub(crate) fn check(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
         tape.evaluator(&point[0]).visit(point, |x| bounded &= within(x));
     }
     if bounded { Ok(()) } else { refused("the function is not bounded") }
+}
+
+/// The domain's box and a little more: the boxes of a ray in it reach some units in the last place beyond.
+pub(crate) fn around(domain: &Domain) -> [[f64; 2]; 3] {
+    let beyond = domain.min.abs().max(domain.max.abs()).max_element() * 2.0_f64.powi(-18);
+    [0, 1, 2].map(|axis| [domain.min[axis] - beyond, domain.max[axis] + beyond])
 }
 
 /// By what is divided, each as a tape of its own.

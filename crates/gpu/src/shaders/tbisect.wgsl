@@ -63,7 +63,9 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
             coordinate(line.base_lo.z, line.base_hi.z, t, line.direction.z),
         );
         answer.intervals += 1u;
-        if f.x <= 0.0 && 0.0 <= f.y {
+        // What is no number excludes nothing.
+        let excluded = f.x > 0.0 || f.y < 0.0;
+        if !excluded {
             if depth >= last {
                 answer.found = 1u;
                 answer.index = index;
