@@ -41,7 +41,7 @@ fn marches_hit_where_their_twins_do() {
         return;
     }
     let mut report = Vec::new();
-    for surface in Catalogue::builtin().iter() {
+    for surface in Catalogue::builtin().functions() {
         let scene = surface.scene().unwrap();
         let twin = Amp::default();
         if twin.supports(&scene).is_err() {
@@ -83,7 +83,7 @@ fn bisection_hits_where_its_twin_does() {
         return;
     }
     let mut supported = 0;
-    for surface in Catalogue::builtin().iter() {
+    for surface in Catalogue::builtin().functions() {
         let scene = surface.scene().unwrap();
         let mut method = BisectionGpu::default();
         if method.supports(&scene).is_err() {
