@@ -71,6 +71,7 @@ fn facts(surface: &Surface) -> Vec<(&'static str, String)> {
     };
     add("same as", &surface.algebraic_form);
     add("variant of", &surface.variant_of);
+    add("form of", &surface.form_of);
     add("printed as", &surface.printed_as);
     add("correction", &surface.correction);
     add("sign", &surface.sign);

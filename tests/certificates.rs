@@ -13,7 +13,7 @@ use zeroset_raycast::{Camera, Certificate, Hits, Method, Progress, Rays, Request
 /// Pixels along a side where brackets are far narrower than single precision resolves.
 const FINE_SIZE: usize = 16;
 
-/// Pixels along a side: few, for 71 surfaces in debug builds; `compare` judges whole images.
+/// Pixels along a side: few, for 73 surfaces in debug builds; `compare` judges whole images.
 const SIZE: usize = 48;
 
 /// What K-marching proved on a surface.
@@ -87,7 +87,7 @@ fn is_too_wide(hits: &Hits, rays: Rays<'_>, index: usize, width: f64) -> bool {
 #[test]
 fn certificates_are_true_and_useful() {
     let mut useful = Vec::new();
-    for surface in Catalogue::builtin().iter() {
+    for surface in Catalogue::builtin().functions() {
         let proofs = Proofs::of(&surface.scene().expect("the catalogue is well formed"));
         assert_eq!(proofs.lies, 0, "{}: certificates contradict the reference", proofs.id);
         assert_eq!(proofs.too_wide, 0, "{}: brackets wider than asked", proofs.id);
@@ -102,7 +102,7 @@ fn certificates_are_true_and_useful() {
 /// Brackets of 1e-12 of the side: there a march leaves nearly all to its finish.
 #[test]
 fn fine_certificates_are_true() {
-    for surface in Catalogue::builtin().iter() {
+    for surface in Catalogue::builtin().functions() {
         let scene = surface.scene().expect("the catalogue is well formed");
         let view = View::new(Camera::facing(&scene.domain), FINE_SIZE, FINE_SIZE);
         let rays = Rays::View(&view);

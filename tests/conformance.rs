@@ -33,6 +33,13 @@ fn on_polynomials() {
 }
 
 #[test]
+fn on_chebyshev_polynomials_in_every_form() {
+    conforms("chmutov-6");
+    conforms("chmutov-9-recurrence");
+    conforms("chmutov-9-cosine");
+}
+
+#[test]
 fn on_surfaces_with_many_nodes() {
     conforms("labs-septic");
     conforms("endrass-octic");
@@ -86,6 +93,7 @@ fn on_sums_of_blobs() {
 #[test]
 fn on_a_surface_that_w_moves() {
     conforms("morph-hyperboloid-torus");
+    conforms("superquadric-twisting");
     conforms("(1-w)*(x^2+y^2-1) + w*(y^2+z^2-1)");
 }
 

@@ -27,7 +27,7 @@ fn hits(scene: &Scene, view: &View, algorithm: Algorithm, depth: u32) -> Vec<boo
 #[test]
 fn deeper_hits_are_among_shallower_ones() {
     let mut fewer = 0;
-    for surface in Catalogue::builtin().iter() {
+    for surface in Catalogue::builtin().functions() {
         let scene = surface.scene().expect("the catalogue is well formed");
         let view = View::new(Camera::facing(&scene.domain), SIZE, SIZE);
         for algorithm in [Algorithm::Kmarch, Algorithm::Tbisect, Algorithm::Mitchell] {

@@ -110,9 +110,7 @@ fn nests(min: [f64; 3], max: [f64; 3]) -> impl Strategy<Value = [Nest; LANES]> {
 
 /// Runs a check on each surface of the catalogue, over its domain.
 pub(crate) fn on_the_catalogue(cases: u32, check: Check) {
-    let surfaces = Catalogue::builtin().iter();
-    assert_eq!(surfaces.len(), 71);
-    for surface in surfaces {
+    for surface in Catalogue::builtin().functions() {
         let scene = surface.scene().expect("the catalogue is well formed");
         let tape = tape(&surface.function().expect("the catalogue is well formed"));
         let (min, max) = (scene.domain.min.to_array(), scene.domain.max.to_array());

@@ -50,7 +50,7 @@ fn marches_agree(test: RootTest) {
         return;
     }
     let mut report = Vec::new();
-    for surface in Catalogue::builtin().iter() {
+    for surface in Catalogue::builtin().functions() {
         let scene = surface.scene().unwrap();
         let twin = Amp { test, ..Amp::default() };
         if twin.supports(&scene).is_err() {
@@ -92,7 +92,7 @@ fn bisection_hits_where_its_twin_does() {
         return;
     }
     let mut supported = 0;
-    for surface in Catalogue::builtin().iter() {
+    for surface in Catalogue::builtin().functions() {
         let scene = surface.scene().unwrap();
         let mut method = BisectionGpu::default();
         if method.supports(&scene).is_err() {

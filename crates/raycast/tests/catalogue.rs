@@ -10,7 +10,7 @@ use zeroset_raycast::catalogue::{Axis, Catalogue, Surface};
 
 const PRECISION: usize = 256;
 
-const IDS: [&str; 71] = [
+const IDS: [&str; 91] = [
     "ding-dong",
     "ding-dong-printed",
     "clebsch",
@@ -57,14 +57,32 @@ const IDS: [&str; 71] = [
     "barth-decic",
     "sarti-dodecic",
     "chmutov-6",
+    "chmutov-6-recurrence",
+    "chmutov-6-cosine",
     "chmutov-7",
+    "chmutov-7-recurrence",
+    "chmutov-7-cosine",
     "chmutov-8",
+    "chmutov-8-recurrence",
+    "chmutov-8-cosine",
     "chmutov-9",
+    "chmutov-9-recurrence",
+    "chmutov-9-cosine",
     "chmutov-12",
+    "chmutov-12-recurrence",
+    "chmutov-12-cosine",
     "chmutov-14",
+    "chmutov-14-recurrence",
+    "chmutov-14-cosine",
     "chmutov-18",
+    "chmutov-18-recurrence",
+    "chmutov-18-cosine",
     "chmutov-22",
+    "chmutov-22-recurrence",
+    "chmutov-22-cosine",
     "chmutov-50",
+    "chmutov-50-recurrence",
+    "chmutov-50-cosine",
     "torus-sqrt",
     "blobby",
     "scherk",
@@ -72,7 +90,9 @@ const IDS: [&str; 71] = [
     "superquadric-0p75",
     "superquadric-2p5",
     "superquadric-8",
+    "superquadric-twisting",
     "blinn-blobby-75",
+    "blinn-blobby-moving",
     "blobby-knoll",
     "blinn-blob-ganacim",
     "absolute-value",
@@ -190,16 +210,14 @@ fn every_equation_is_a_scene() {
 fn references_lead_somewhere() {
     let keys = ["singh2010 ", "knoll2007 ", "ganacim2011 ", "stoll2006 "];
     for surface in Catalogue::builtin().iter() {
-        for id in surface.variant_of.iter().chain(&surface.algebraic_form) {
+        let Surface { variant_of, form_of, algebraic_form, .. } = surface;
+        for id in [variant_of, form_of, algebraic_form].into_iter().flatten() {
             assert!(IDS.contains(&id.as_str()) && *id != surface.id, "{}: {id}", surface.id);
         }
         assert!(!surface.papers.is_empty() && surface.sign.is_some(), "{}", surface.id);
         for paper in &surface.papers {
             assert!(keys.iter().any(|key| paper.starts_with(key)), "{}: {paper}", surface.id);
         }
-        // A published step stands in Table 1.
-        let in_table = surface.papers.iter().any(|p| p == "singh2010 Table 1");
-        assert_eq!(surface.published_step.is_some(), in_table, "{}", surface.id);
         let is_smooth = surface.singular_kind.as_deref() == Some("none");
         assert!(!(is_smooth && surface.singular_locus.is_some()), "{}", surface.id);
     }
@@ -331,7 +349,8 @@ fn algebraic_forms_have_the_same_zeros() {
 
 #[test]
 fn chmutov_surfaces_are_sums_of_chebyshev_polynomials() {
-    for surface in Catalogue::builtin().iter().filter(|s| s.id.starts_with("chmutov-")) {
+    let chmutov = |s: &&Surface| s.id.starts_with("chmutov-");
+    for surface in Catalogue::builtin().functions().filter(chmutov) {
         let n = surface.degree.expect("a polynomial");
         let constant = n % 2;
         let text = format!("T({n}, x) + T({n}, y) + T({n}, z) + {constant}");
@@ -343,6 +362,77 @@ fn chmutov_surfaces_are_sums_of_chebyshev_polynomials() {
             assert!(agree(&value, &evaluator(&sum).evaluate(place)), "{}", surface.id);
         }
     }
+}
+
+#[test]
+fn forms_have_the_same_f_everywhere() {
+    // Coordinates in [-1, 1], at its ends, and outside.
+    let inside = [constant("-3/7"), constant("2/3"), constant("1/9")];
+    let ends = [big(1.0), big(-1.0), big(0.0)];
+    let outside = [constant("-10/9"), constant("17/16"), constant("-3/2")];
+    let mixed = [constant("4/7"), constant("-5/3"), constant("8/7")];
+    let mut forms = 0;
+    for form in Catalogue::builtin().iter() {
+        let Some(id) = &form.form_of else { continue };
+        forms += 1;
+        let of = surface(id);
+        assert!(of.form_of.is_none(), "{}", form.id);
+        assert_eq!((form.domain, &form.sign), (of.domain, &of.sign), "{}", form.id);
+        assert_eq!(form.degree.or(form.zero_set_degree), of.degree, "{}", form.id);
+        let (f, g) = (tape(form), tape(of));
+        assert_ne!(form.function(), of.function(), "{} is {id} itself", form.id);
+        let fixed = [&inside, &ends, &outside, &mixed].map(Clone::clone);
+        for place in places(form).into_iter().chain(fixed) {
+            let (a, b) = (evaluator(&f).evaluate(place.clone()), evaluator(&g).evaluate(place));
+            assert!(agree(&a, &b), "{}: {:?}, {id}: {:?}", form.id, a.to_f64(), b.to_f64());
+        }
+    }
+    assert_eq!(forms, 18);
+}
+
+/// A surface's tape with a value for a parameter.
+fn moved(surface: &Surface, name: &str, value: &str) -> Tape {
+    let mut values = Parameters::default();
+    values.set(name, value);
+    let function = surface.function().expect("an equation");
+    function.tape(&values, PRECISION).unwrap_or_else(|e| panic!("{name} = {value}: {e}"))
+}
+
+#[test]
+fn the_superquadric_twists() {
+    let twisting = surface("superquadric-twisting");
+    let box_ = Function::parse("x^8 + y^8 + (z/2)^8 - 1").expect("an equation");
+    let box_ = box_.tape(&Parameters::default(), PRECISION).expect("no parameters");
+    let straight = moved(twisting, "twist", "0");
+    let twisted = moved(twisting, "twist", "0.7");
+    for place in places(twisting) {
+        let value = evaluator(&box_).evaluate(place.clone());
+        assert!(agree(&value, &evaluator(&straight).evaluate(place.clone())));
+        // The slice at z, turned by 0.7 z.
+        let [x, y, z] = place;
+        let angle = constant("0.7") * z.clone();
+        let (cos, sin) = (angle.clone().unary(Unary::Cos), angle.unary(Unary::Sin));
+        let image = [cos.clone() * x.clone() - sin.clone() * y.clone(), sin * x + cos * y, z];
+        assert!(agree(&value, &evaluator(&twisted).evaluate(image)));
+    }
+}
+
+#[test]
+fn the_balls_go_round_closed_curves() {
+    let balls = surface("blinn-blobby-moving");
+    let [start, halfway, end] = ["0", "pi", "2*pi"].map(|u| moved(balls, "u", u));
+    let mut moved = 0;
+    for place in places(balls) {
+        let [a, b, c] =
+            [&start, &halfway, &end].map(|tape| evaluator(tape).evaluate(place.clone()));
+        assert!(agree(&a, &c), "{:?} {:?}", a.to_f64(), c.to_f64());
+        moved += usize::from(!agree(&a, &b));
+    }
+    assert_eq!(moved, 6);
+    // Apart at first, so that there is no ball at the origin; then one body around it.
+    let centre = [big(0.0), big(0.0), big(0.0)];
+    assert!(evaluator(&start).evaluate(centre.clone()).nearest() < 0.0);
+    assert!(evaluator(&halfway).evaluate(centre).nearest() > 1.0);
 }
 
 #[test]
@@ -457,7 +547,7 @@ fn ids_that_are_nearly_right_are_suggested() {
     assert_eq!(suggest("barth-sextik")[0], "barth-sextic");
     assert_eq!(suggest("Torus")[0], "torus");
     assert_eq!(suggest("barth"), ["barth-decic", "barth-sextic"]);
-    assert_eq!(suggest("chmutov").len(), 9);
+    assert_eq!(suggest("chmutov").len(), 10);
     assert!(suggest("elephant").is_empty() && suggest("").is_empty());
 }
 

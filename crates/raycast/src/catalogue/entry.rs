@@ -117,6 +117,7 @@ struct Entry {
     zero_set_degree: Option<u32>,
     algebraic_form: Option<String>,
     variant_of: Option<String>,
+    form_of: Option<String>,
     #[serde(default)]
     papers: Vec<String>,
     published_step: Option<Spanned<f64>>,
@@ -250,6 +251,7 @@ impl Entry {
             zero_set_degree: self.zero_set_degree,
             algebraic_form: self.algebraic_form,
             variant_of: self.variant_of,
+            form_of: self.form_of,
             papers: self.papers,
             published_step: self.published_step.map(Spanned::into_inner),
             status: self.status,

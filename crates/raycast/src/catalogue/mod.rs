@@ -82,6 +82,11 @@ impl Catalogue {
         self.surfaces.iter()
     }
 
+    /// Every surface with an f of its own: all but other forms of one.
+    pub fn functions(&self) -> impl Iterator<Item = &Surface> {
+        self.surfaces.iter().filter(|surface| surface.form_of.is_none())
+    }
+
     /// Ids that a misspelt one may mean, most likely first: those few letters away, or that share a
     /// part between dashes.
     pub fn suggest(&self, id: &str) -> Vec<&str> {

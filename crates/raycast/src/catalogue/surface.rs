@@ -27,9 +27,12 @@ pub struct Surface {
     pub algebraic_form: Option<String>,
     /// The id of the surface that this is another form of.
     pub variant_of: Option<String>,
-    /// Where it is printed: a paper's key and a place in it.
+    /// The id of the surface that has the same f, computed in another way.
+    pub form_of: Option<String>,
+    /// Where it is printed: a paper's key and a place in it, such as `singh2010 Table 1 row 4`.
     pub papers: Vec<String>,
-    /// The base step of adaptive marching points, units of space (\[singh2010\], Table 1).
+    /// The base step of adaptive marching points, units of space (\[singh2010\], Table 1): that of
+    /// the surface's row, or of the row of a surface that it is a variant or a form of.
     pub published_step: Option<f64>,
     /// How sure it is that the equation is the one meant.
     pub status: Status,
@@ -86,6 +89,7 @@ impl Surface {
             zero_set_degree: None,
             algebraic_form: None,
             variant_of: None,
+            form_of: None,
             papers: Vec::new(),
             published_step: None,
             status: Status::default(),
