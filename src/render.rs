@@ -99,6 +99,7 @@ impl Render {
             Some(_) => self.motion.first_scene(&self.scene)?,
         };
         let Setup { scene, view, method } = self.setup(&options)?;
+        let progress = watch::interruptible()?;
         let resident = Resident {
             march: resident::march(&*method, self.view)?,
             motion: &self.motion,
@@ -106,7 +107,7 @@ impl Render {
             view: &view,
             destination: &self.destination(&scene),
             frames,
-            progress: &watch::interruptible()?,
+            progress: &progress,
         };
         resident.run(scene)
     }

@@ -3,7 +3,7 @@
 use clap::Args;
 use comfy_table::{CellAlignment, Table, presets};
 use zeroset::bench::tune::{self, Grid, Trial};
-use zeroset::bench::{self, Oracle, Sample, Truths, truth};
+use zeroset::bench::{self, Sample, Truths, truth};
 use zeroset::raycast::{Error, Method, Progress, Rays, Scene, View};
 
 use crate::failure::Failure;
@@ -85,7 +85,8 @@ impl Tune {
     fn advice(&self, method: &dyn Method, trials: &[Trial]) -> String {
         let set = |trial: &Trial| {
             let id = method.id();
-            format!("--set {id}.step={} --set {id}.tau1={}", short(trial.step), short(trial.tau1))
+            let [step, tau1] = [trial.step, trial.tau1].map(three_digits);
+            format!("--set {id}.step={step} --set {id}.tau1={tau1}")
         };
         if let Some(best) = tune::recommended(trials, self.miss_rate) {
             return format!("For a miss rate of at most {:?}:\n  {}\n", self.miss_rate, set(best));
@@ -136,6 +137,12 @@ fn measure(
     Ok((truths, trials?))
 }
 
+/// A number of a grid, to three significant digits: 0.0106, 3, 1.25e-5.
+fn three_digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.2e}").parse().expect("a number was printed");
+    zeroset::raycast::knob::text(rounded)
+}
+
 fn table(trials: &[Trial]) -> String {
     let mut table = Table::new();
     table.load_preset(presets::NOTHING);
@@ -154,8 +161,8 @@ fn table(trials: &[Trial]) -> String {
         let a_ray = |n: u64| short(n as f64 / trial.judged.max(1) as f64);
         table.add_row([
             if tune::is_on_frontier(trials, trial) { "*" } else { "" }.into(),
-            short(trial.step),
-            short(trial.tau1),
+            three_digits(trial.step),
+            three_digits(trial.tau1),
             trial.lost.to_string(),
             trial.false_hits.to_string(),
             short(trial.error_rate()),

@@ -1,6 +1,6 @@
 //! Fig. 4, 5, 6 and 9: settings, what they cost and what they lose.
 
-use zeroset::bench::{Class, Oracle, Sample, Tolerance, Truths, Verdict, judge, truth};
+use zeroset::bench::{Class, Sample, Tolerance, Truths, Verdict, judge, truth};
 use zeroset::cpu::Implicit;
 use zeroset::cpu::amp::{Adaptation, Amp, RootTest, Settings};
 use zeroset::raycast::{Camera, Hits, Method, Progress, Rays, Request, Scene, View};
@@ -77,7 +77,7 @@ pub(crate) fn fig_4_5(size: usize) -> Result<(), Failure> {
         "| surface | adaptation | lost | false | samples a ray | on rays that hit | on rays in the domain that miss | most |"
     );
     println!("|{}", "---|".repeat(8));
-    for id in ["barth-decic", "superquadric"] {
+    for id in ["barth-decic", "superquadric-2p5"] {
         let judged = Judged::new(id, size)?;
         for (name, distance, silhouette) in [
             ("none: marching points", Adaptation::Off, Adaptation::Off),

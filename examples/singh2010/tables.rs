@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use zeroset::bench::{Oracle, Sample, Tolerance, Truths, Verdict, judge, truth};
+use zeroset::bench::{Sample, Tolerance, Truths, Verdict, judge, truth};
 use zeroset::cpu::amp::RootTest;
 use zeroset::cpu::{Amp, Bisection, Finishing, Stop};
 use zeroset::gpu::{AmpGpu, BisectionGpu, Choice, Frames, Look, Shadows};

@@ -80,7 +80,9 @@ impl Method for AmpGpu {
         let compiled = Compiled::new(&self.device, &module(&implicit.tape)?, KERNEL)?;
         let method = self.clone();
         let compiled = Mutex::new(compiled);
-        Ok(Box::new(Prepared { method, implicit, published_step, settings, compiled }))
+        let prepared = Prepared { method, implicit, published_step, settings, compiled };
+        chunks::warm_up(&prepared, &scene.domain)?;
+        Ok(Box::new(prepared))
     }
 
     fn knobs(&self) -> Vec<Knob> {

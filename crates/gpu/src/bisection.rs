@@ -8,8 +8,8 @@ use zeroset_cpu::{Bisection, Finishing, Goal, Implicit, Settled, Settler, Stop, 
 use zeroset_expr::{Parameters, Tape};
 use zeroset_ia::{Interval, Rounding, Scalar, Set};
 use zeroset_raycast::{
-    Certificate, Domain, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray, Rays,
-    Report, Scene, Unsupported, Work, knob,
+    Certificate, Domain, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray,
+    Rays, Report, Scene, Unsupported, Work, knob,
 };
 
 use crate::bounded;
@@ -80,7 +80,9 @@ impl Method for BisectionGpu {
         bounded::check(&implicit.tape, &implicit.domain)?;
         let module = module(&implicit.tape, self.bisection.rounding)?;
         let compiled = Mutex::new(Compiled::new(&self.device, &module, KERNEL)?);
-        Ok(Box::new(Prepared { method: self.clone(), implicit, compiled }))
+        let prepared = Prepared { method: self.clone(), implicit, compiled };
+        chunks::warm_up(&prepared, &scene.domain)?;
+        Ok(Box::new(prepared))
     }
 
     fn knobs(&self) -> Vec<Knob> {

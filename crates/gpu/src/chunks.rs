@@ -5,7 +5,10 @@ use std::time::{Duration, Instant};
 use bytemuck::Pod;
 use rayon::prelude::*;
 use zeroset_cpu::tiles;
-use zeroset_raycast::{Certificate, Error, Hit, Hits, Progress, Ray, Rays, Report, Work};
+use zeroset_raycast::{
+    Camera, Certificate, Domain, Error, Hit, Hits, Intersector, Progress, Ray, Rays, Report,
+    Request, View, Work,
+};
 
 use crate::device::{AsBinding, Buffer, Device, Kernel};
 
@@ -117,6 +120,14 @@ pub(crate) fn cast<T: Traffic>(
         progress.advance(count)?;
     }
     Ok(Report { work, device_time: time })
+}
+
+/// Casts a ray through the middle of the domain: drivers compile when a kernel first runs, which is part of
+/// preparing.
+pub(crate) fn warm_up(intersector: &dyn Intersector, domain: &Domain) -> Result<(), Error> {
+    let view = View::new(Camera::facing(domain), 1, 1);
+    let mut hits = Hits::new(Request::First, 1);
+    intersector.intersect(Rays::View(&view), &mut hits, &Progress::new()).map(|_| ())
 }
 
 type Indexed<T> = Vec<(usize, T)>;

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use zeroset_cpu::Implicit;
 use zeroset_cpu::amp::Settings;
 use zeroset_expr::{Parameters, Tape};
-use zeroset_raycast::{Error, Method, Progress, Projection, Scene, Unsupported, View};
+use zeroset_raycast::{Camera, Error, Method, Progress, Projection, Scene, Unsupported, View};
 
 use crate::amp::{AmpGpu, SentMarch, module};
 use crate::compiled::Compiled;
@@ -115,7 +115,20 @@ impl Frames {
         let settings = Settings::new(&method.amp, &implicit, published_step)?;
         let compiled = Compiled::new(&method.device, &module(&implicit.tape)?, KERNEL)?;
         let method = method.clone();
-        Ok(Self { method, implicit, published_step, settings, compiled, canvas: None })
+        let mut frames =
+            Self { method, implicit, published_step, settings, compiled, canvas: None };
+        // Drivers compile when a kernel first runs.
+        let view = View::new(Camera::facing(&frames.implicit.domain), TILE, TILE);
+        let look = Look {
+            lights: &[],
+            shadows: Shadows::Off,
+            front: Vec3::ONE,
+            back: Vec3::ONE,
+            background: &[[0; 3]; TILE],
+        };
+        frames.draw(&view, &look, &Progress::new())?;
+        frames.canvas = None;
+        Ok(frames)
     }
 
     /// New values for the equation's parameters; the shader stays as it is.
