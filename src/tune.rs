@@ -128,7 +128,7 @@ fn measure(
     })?;
     let truths = Truths { sample, truths };
     let count = grid.steps.len() * grid.thresholds.len();
-    let mut done = 0;
+    let mut done = 0_usize;
     let trials: Result<_, Error> =
         tune::tune(method, scene, rays, &truths, grid, progress, &mut |_| {
             done += 1;
