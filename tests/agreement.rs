@@ -17,7 +17,7 @@ use zeroset_raycast::{
 const SIZE: usize = 16;
 
 /// The methods that look at every part of a ray.
-const SEARCHERS: [&str; 4] = ["kmarch", "tbisect", "mitchell", "reference"];
+const SEARCHERS: [&str; 5] = ["kmarch", "tbisect", "mitchell", "tbisect-gpu", "reference"];
 
 fn ask(intersector: &dyn Intersector, rays: Rays<'_>) -> Hits {
     let mut hits = Hits::new(Request::First, rays.len());
