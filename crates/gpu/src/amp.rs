@@ -70,6 +70,7 @@ impl Method for AmpGpu {
 
     fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
         self.amp.supports(scene)?;
+        settings::shader(self.id(), scene, |tape| module(tape).map(|_| ()))?;
         settings::available(&self.device)
     }
 

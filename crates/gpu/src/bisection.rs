@@ -65,13 +65,10 @@ impl Method for BisectionGpu {
     }
 
     fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
-        let unsupported = |error| match error {
-            Error::Unsupported(unsupported) => unsupported,
-            other => Unsupported(other.to_string()),
-        };
-        let implicit = Implicit::new(self.id(), scene).map_err(unsupported)?;
-        module(&implicit.tape, self.bisection.rounding)?;
-        bounded::check(&implicit.tape, &implicit.domain)?;
+        settings::shader(self.id(), scene, |tape| {
+            module(tape, self.bisection.rounding)?;
+            bounded::check(tape, &scene.domain)
+        })?;
         settings::available(&self.device)
     }
 

@@ -1,6 +1,8 @@
 //! What all methods on devices have: the knob `device`.
 
-use zeroset_raycast::{Knob, Unsupported};
+use zeroset_cpu::Implicit;
+use zeroset_expr::Tape;
+use zeroset_raycast::{Error, Knob, Scene, Unsupported};
 
 use crate::device::{Choice, Device};
 
@@ -14,6 +16,20 @@ pub(crate) fn knobs(twin: Vec<Knob>, choice: &Choice) -> Vec<Knob> {
         doc: "where it runs: a number or a part of a name in the list of `zeroset devices`, or auto: what the variable ZEROSET_DEVICE says, else the first (default auto)",
     });
     knobs
+}
+
+/// Is there a shader for the scene's function?
+pub(crate) fn shader(
+    method: &str,
+    scene: &Scene,
+    check: impl FnOnce(&Tape) -> Result<(), Unsupported>,
+) -> Result<(), Unsupported> {
+    match Implicit::new(method, scene) {
+        Ok(implicit) => check(&implicit.tape),
+        Err(Error::Unsupported(unsupported)) => Err(unsupported),
+        // Wrong parameters and domains are for preparing to tell.
+        Err(_) => Ok(()),
+    }
 }
 
 /// Can the device be opened?

@@ -162,6 +162,16 @@ fn hostile_functions_and_rays_end_without_a_panic() {
 }
 
 #[test]
+fn functions_that_are_too_long_are_refused() {
+    let scene = scene("sum(i, 1, 3000, 1/((x-i/3000)^2+y^2+z^2+1)) = 1000");
+    for method in [&AmpGpu::default() as &dyn Method, &BisectionGpu::default()] {
+        let why = method.supports(&scene).unwrap_err().to_string();
+        assert!(why.contains("too long for a shader"), "{why}");
+        assert!(method.prepare(&scene).is_err());
+    }
+}
+
+#[test]
 fn parameters_move_without_a_new_shader() {
     if adapter::device().is_none() {
         return;

@@ -30,7 +30,12 @@ pub struct Module {
     /// The interval operations that are needed, each once, with their code.
     operations: Vec<(String, String)>,
     constants: Vec<[f32; 4]>,
+    statements: usize,
 }
+
+/// The most statements of a shader's functions, an interval operation counted as eight: compilers take
+/// a second for this many, and far longer than in proportion for more.
+const MOST_STATEMENTS: usize = 8192;
 
 /// The most constants that fit in a uniform buffer on every device.
 const MOST_UNIFORM: usize = 4096;
@@ -38,23 +43,37 @@ const MOST_UNIFORM: usize = 4096;
 impl Module {
     /// No functions; intervals will round outward, or to nearest.
     pub fn new(rounding: Rounding) -> Self {
-        Self { rounding, source: String::new(), operations: Vec::new(), constants: Vec::new() }
+        Self {
+            rounding,
+            source: String::new(),
+            operations: Vec::new(),
+            constants: Vec::new(),
+            statements: 0,
+        }
     }
 
     /// Adds a tape as the function `name(x, y, z)`, or for a slope `name(x, y, z, dx, dy, dz)`.
     ///
     /// # Errors
-    /// If an operation has no form on devices.
+    /// If an operation has no form on devices, or there are too many.
     pub fn function(
         &mut self,
         name: &str,
         tape: &Tape,
         numbers: Numbers,
     ) -> Result<(), Unsupported> {
-        let ty = match numbers {
-            Numbers::Plain => "f32",
-            Numbers::Interval => "vec2f",
+        let (ty, weight) = match numbers {
+            Numbers::Plain => ("f32", 1),
+            Numbers::Interval => ("vec2f", 8),
         };
+        self.statements += weight * tape.instructions().len();
+        if self.statements > MOST_STATEMENTS {
+            return Err(Unsupported(format!(
+                "the function is too long for a shader: {} statements, of at most {MOST_STATEMENTS}; \
+                 use a CPU method",
+                self.statements
+            )));
+        }
         let inputs = ["x", "y", "z", "dx", "dy", "dz"];
         let parameters: Vec<_> =
             inputs[..tape.inputs()].iter().map(|name| format!("{name}: {ty}")).collect();
