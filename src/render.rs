@@ -26,6 +26,7 @@ Examples:
   zeroset render '-x^2-y^2-z^2+1' --camera eye=0,-4,0,fov=30 --out sphere.png
   zeroset render torus --method amp-sign --view error --legend --out error.png
   zeroset render klein --light 1,-1,2 --shadows on
+  zeroset render blinn-blobby-75 --environment sky
   zeroset render morph-hyperboloid-torus --animate w=0:1:60 --out frames/ --apng morph.png
 
 Frames are numbered from 0: frame i of N has FROM + (TO - FROM)*i/(N - 1), exactly. Frames that are
