@@ -84,7 +84,7 @@ impl Painter<'_> {
         let blocked = lights.iter().flat_map(|l| &l.blocked).filter(|blocked| **blocked).count();
 
         let picture = match self.kind {
-            ViewKind::Shaded => shaded::picture(self.view, &hits, &lights),
+            ViewKind::Shaded => shaded::picture(self.view, &hits, &lights, self.light.environment),
             ViewKind::Error => {
                 let agreement = self.against_reference(scene, &hits, bar)?;
                 shade::picture(self.kind, self.view, &hits, Some(&agreement))

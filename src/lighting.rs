@@ -1,14 +1,14 @@
-//! Lights from text.
+//! Lights and surroundings from text.
 
 use clap::{Args, ValueEnum};
 use glam::{DVec3, Vec3};
 use zeroset::raycast::View;
-use zeroset::shade::{Light, ViewKind, shaded};
+use zeroset::shade::{Environment, Light, ViewKind, shaded};
 
 use crate::failure::Failure;
 use crate::numbers;
 
-/// Lights, and whether they cast shadows.
+/// Lights, whether they cast shadows, and what surrounds the surface.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct LightOptions {
     /// The direction towards a light at infinity, in the coordinates of the equation, of any
@@ -20,6 +20,10 @@ pub(crate) struct LightOptions {
     /// Whether a shadow ray is cast from each hit to each light that it faces
     #[arg(long, value_name = "on|off", value_enum, default_value_t, hide_possible_values = true)]
     pub(crate) shadows: Shadows,
+    /// What surrounds the surface: plain, greys that nothing mirrors; or sky, a sky over a chequered
+    /// floor, with the lights as suns, which the surface mirrors
+    #[arg(long, value_name = "plain|sky", value_parser = environment, default_value_t)]
+    pub(crate) environment: Environment,
 }
 
 /// Are shadow rays cast?
@@ -35,9 +39,10 @@ pub(crate) enum Shadows {
 impl LightOptions {
     /// Refuses light on pictures that show none.
     pub(crate) fn check(&self, view: ViewKind) -> Result<(), Failure> {
-        let option = match (&self.lights[..], self.shadows) {
-            (_, Shadows::On) => "--shadows on",
-            ([_, ..], _) => "--light",
+        let option = match (&self.lights[..], self.shadows, self.environment) {
+            (_, Shadows::On, _) => "--shadows on",
+            ([_, ..], _, _) => "--light",
+            (_, _, Environment::Sky) => "--environment sky",
             _ => return Ok(()),
         };
         if view == ViewKind::Shaded {
@@ -54,6 +59,11 @@ impl LightOptions {
         let strength = 1.0 / self.lights.len() as f32;
         self.lights.iter().map(|direction| Light::new(*direction, strength)).collect()
     }
+}
+
+/// Reads the name of an environment.
+fn environment(text: &str) -> Result<Environment, String> {
+    Environment::from_name(text).map_err(|error| error.to_string())
 }
 
 /// Reads `X,Y,Z`, and makes it a unit vector.

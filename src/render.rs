@@ -6,7 +6,7 @@ use std::time::Instant;
 use clap::Args;
 use zeroset::bench;
 use zeroset::raycast::{Method, Progress, Scene, View};
-use zeroset::shade::ViewKind;
+use zeroset::shade::{Environment, ViewKind};
 
 use crate::animate::Animator;
 use crate::destination::{self, Destination, FrameFiles, is_exr};
@@ -28,6 +28,7 @@ Examples:
   zeroset render torus --method amp-sign --view error --legend --out error.png
   zeroset render klein --light 1,-1,2 --shadows on
   zeroset render barth-decic --method amp-sign-gpu --resident --animate azimuth=0:90:60 --out turn/
+  zeroset render blinn-blobby-75 --environment sky
   zeroset render morph-hyperboloid-torus --animate w=0:1:60 --out frames/ --apng morph.png
 
 Frames are numbered from 0: frame i of N has FROM + (TO - FROM)*i/(N - 1), exactly. Frames that are
@@ -93,6 +94,9 @@ impl Render {
     fn stay(&self, frames: Option<usize>) -> Result<(), Failure> {
         if self.legend {
             return Err(Failure::usage("--legend is not for --resident"));
+        }
+        if self.light.environment != Environment::Plain {
+            return Err(Failure::usage("--environment is not for --resident"));
         }
         let options = match frames {
             None => self.scene.clone(),

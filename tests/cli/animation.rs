@@ -166,3 +166,20 @@ fn an_interruption_keeps_finished_frames() {
     assert!(names.iter().all(|name| image::open(out.join(name)).is_ok()));
     assert_eq!(files(dir.path()), ["f"]);
 }
+
+#[test]
+fn surfaces_that_are_made_to_move_move() {
+    let dir = folder();
+    for (surface, moves) in
+        [("superquadric-twisting", "twist=-1:2:2"), ("blinn-blobby-moving", "u=0:pi:2")]
+    {
+        let out = format!("{surface}/");
+        let arguments =
+            ["render", surface, "--size", "24x24", "--animate", moves, "--out", &out[..]];
+        done(dir.path(), &arguments);
+        let frame = |i: usize| {
+            image::open(dir.path().join(format!("{surface}/frame-000{i}.png"))).unwrap().to_rgb8()
+        };
+        assert_ne!(frame(0), frame(1), "{surface}");
+    }
+}

@@ -124,6 +124,7 @@ fn what_does_not_stay_on_a_device_is_refused() {
         (&["--method", "kmarch"][..], "--resident is for --method amp-sign-gpu or amp-taylor-gpu"),
         (&["--method", "amp-sign-gpu", "--view", "depth"], "--resident is for --view shaded"),
         (&["--method", "amp-sign-gpu", "--legend"], "--legend"),
+        (&["--method", "amp-sign-gpu", "--environment", "sky"], "--environment"),
         (&["--method", "amp-sign-gpu", "--out", "p.exr"], ".png"),
     ] {
         if more.contains(&"amp-sign-gpu") && !has_device() {

@@ -80,3 +80,21 @@ fn answers_do_not_depend_on_threads() {
     }
     assert!(pictures.windows(2).all(|p| p[0] == p[1]));
 }
+
+#[test]
+fn an_environment_is_seen_and_mirrored() {
+    let dir = folder();
+    let picture = |arguments: &[&str]| {
+        let all = ["render", "sphere", "--size", "48x48", "--out", "e.png"];
+        done(dir.path(), &[&all[..], arguments].concat());
+        image::open(dir.path().join("e.png")).unwrap().to_rgb8()
+    };
+    let plain = picture(&[]);
+    assert_eq!(plain, picture(&["--environment", "plain"]));
+    let sky = picture(&["--environment", "sky"]);
+    assert_eq!(sky, picture(&["--environment", "sky"]));
+    // Both what is hit and what is not look otherwise.
+    for [x, y] in [[24, 24], [1, 1], [46, 46]] {
+        assert_ne!(plain.get_pixel(x, y), sky.get_pixel(x, y), "{x} {y}");
+    }
+}

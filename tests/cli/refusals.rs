@@ -64,6 +64,8 @@ fn bad_input_is_refused_with_place_and_remedy() {
         (render(&["--shadows", "soft"]), "soft"),
         (render(&["--shadows", "on", "--view", "depth"]), "--view shaded"),
         (render(&["--light", "1,2,3", "--view", "normal"]), "--view shaded"),
+        (render(&["--environment", "sky", "--view", "steps"]), "--view shaded"),
+        (render(&["--environment", "forest"]), "plain, sky"),
         (render(&["--resume"]), "--animate"),
         (render(&["--apng", "a.png"]), "--animate"),
         (animate(&["--animate", "w=0:1:0"]), "from 1 to"),

@@ -254,7 +254,7 @@ fn parameters_change_the_domain_that_is_found() {
 
 #[test]
 fn the_same_equation_has_the_same_domain() {
-    for surface in Catalogue::builtin().iter().filter(|s| s.equation.len() < 400) {
+    for surface in Catalogue::builtin().functions().filter(|s| s.equation.len() < 400) {
         let mut surface = surface.clone();
         surface.domain = None;
         let once = surface.scene().expect("an equation").domain;

@@ -53,6 +53,14 @@ pub enum ShadeError {
     /// An error map without a reference.
     #[error("the picture \"error\" needs a comparison with the reference, and there is none")]
     NoReference,
+    /// No such environment.
+    #[error("there is no environment {name:?}; there are {known}")]
+    UnknownEnvironment {
+        /// What was asked for.
+        name: String,
+        /// The names that there are.
+        known: String,
+    },
     /// No such picture.
     #[error("there is no picture {name:?}; there are {known}")]
     UnknownKind {

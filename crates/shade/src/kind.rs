@@ -5,7 +5,8 @@ use std::fmt;
 use zeroset_raycast::{Hits, View};
 
 use crate::{
-    Agreement, Picture, ShadeError, agreement, certificate, depth, normals, shaded, steps,
+    Agreement, Environment, Picture, ShadeError, agreement, certificate, depth, normals, shaded,
+    steps,
 };
 
 /// What a picture shows of the hits.
@@ -86,7 +87,7 @@ pub fn picture(
 ) -> Result<Picture, ShadeError> {
     match kind {
         ViewKind::Normal => normals::picture(view, hits),
-        ViewKind::Shaded => shaded::picture(view, hits, &shaded::lights(view)),
+        ViewKind::Shaded => shaded::picture(view, hits, &shaded::lights(view), Environment::Plain),
         ViewKind::Depth => depth::picture(view, hits),
         ViewKind::Steps => steps::picture(view, hits),
         ViewKind::Certificate => certificate::picture(view, hits),

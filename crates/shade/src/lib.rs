@@ -11,7 +11,8 @@
 //! | `certificate` | what was proved | [`certificate`] |
 //! | `error` | agreement with the reference | [`agreement`] |
 //!
-//! A shaded picture has shadows where [`ShadowRays`] were cast and found blocked.
+//! A shaded picture has shadows where [`ShadowRays`] were cast and found blocked, and lies in an
+//! [`Environment`], which it may mirror.
 //!
 //! Several answers to one view are painted by [`pictures`], with the same scale for all. Pictures
 //! are saved as PNG ([`Picture::save_png`]), joined to a contact [`sheet`](sheet::sheet), or shown
@@ -25,6 +26,7 @@ pub mod animation;
 pub mod certificate;
 pub mod colour;
 pub mod depth;
+pub mod environment;
 pub mod error;
 pub mod exr;
 pub mod file;
@@ -44,6 +46,7 @@ mod text;
 pub use agreement::Agreement;
 pub use animation::Animation;
 pub use colour::Colour;
+pub use environment::Environment;
 pub use error::ShadeError;
 pub use file::write_atomically;
 pub use kind::{ViewKind, picture, pictures};

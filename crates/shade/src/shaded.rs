@@ -3,10 +3,11 @@
 use glam::Vec3;
 use zeroset_raycast::{Hits, View};
 
+use crate::environment::Sky;
 use crate::legend::{Key, Legend};
 use crate::normals::{Side, seen};
 use crate::picture::{check_count, check_normals};
-use crate::{Colour, Picture, ShadeError};
+use crate::{Colour, Environment, Picture, ShadeError};
 
 /// A light at infinity.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,12 +64,18 @@ pub fn background(height: usize) -> Vec<[u8; 3]> {
 ///
 /// The side that the gradient points out of is ivory, the other a cool blue. The ambient light is
 /// brighter from the camera's top. Hits without a normal are grey. The sum is in linear light, and
-/// the bytes are encoded as sRGB.
+/// the bytes are encoded as sRGB. In an [`Environment`] that can be mirrored, this is the surface's
+/// own colour, and what it mirrors is added.
 ///
 /// # Errors
 /// If the hits are not those of the view or have no normals, or a light's blocked pixels are not
 /// those of the view.
-pub fn picture(view: &View, hits: &Hits, lights: &[Light]) -> Result<Picture, ShadeError> {
+pub fn picture(
+    view: &View,
+    hits: &Hits,
+    lights: &[Light],
+    environment: Environment,
+) -> Result<Picture, ShadeError> {
     check_normals(view, hits, "shaded")?;
     for light in lights.iter().filter(|l| !l.blocked.is_empty()) {
         check_count(view, "blocked pixels", light.blocked.len())?;
@@ -78,10 +85,19 @@ pub fn picture(view: &View, hits: &Hits, lights: &[Light]) -> Result<Picture, Sh
     let Palette { front, back } = palette();
     let none = Colour::oklch(0.55, 0.0, 0.0).bytes();
     let background = background(view.height);
+    let sky = match environment {
+        Environment::Plain => None,
+        Environment::Sky => Some(Sky::new(view, lights)),
+    };
+    let direction =
+        |i: usize| view.ray(i % view.width, i / view.width).direction.normalize_or_zero();
 
     let mut description = String::from("Lambert shading; ivory where the gradient faces the eye");
     if lights.iter().any(|l| !l.blocked.is_empty()) {
         description += "; with shadows";
+    }
+    if sky.is_some() {
+        description += "; mirroring a sky over a chequered floor";
     }
     let keys = vec![
         Key::new(Colour(front).bytes(), "seen from f > 0"),
@@ -90,7 +106,10 @@ pub fn picture(view: &View, hits: &Hits, lights: &[Light]) -> Result<Picture, Sh
     let legend = Legend { scale: None, keys };
     Picture::painted(view, description, Some(legend), |i| {
         if !hits.certificate[i].is_hit() {
-            return background[i / view.width];
+            return match &sky {
+                None => background[i / view.width],
+                Some(sky) => Colour(sky.light(direction(i), i)).bytes(),
+            };
         }
         let Some(seen) = seen(view, i, hits.normal[i]) else { return none };
         let mut light = 0.08 + 0.05 * seen.normal.dot(up);
@@ -100,6 +119,10 @@ pub fn picture(view: &View, hits: &Hits, lights: &[Light]) -> Result<Picture, Sh
             }
         }
         let colour = if seen.side == Side::Front { front } else { back };
-        Colour(light * colour).bytes()
+        let own = light * colour;
+        match &sky {
+            None => Colour(own).bytes(),
+            Some(sky) => Colour(sky.polish(own, direction(i), seen.normal, i)).bytes(),
+        }
     })
 }

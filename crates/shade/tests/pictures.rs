@@ -6,8 +6,8 @@ use std::fs;
 use glam::{DVec3, Vec3};
 use zeroset_raycast::{Camera, Certificate, Hit, Hits, Projection, Request, View, Work};
 use zeroset_shade::{
-    Agreement, Colour, Light, Picture, ShadeError, ViewKind, agreement, certificate, exr, picture,
-    pictures, shaded, steps,
+    Agreement, Colour, Environment, Light, Picture, ShadeError, ViewKind, agreement, certificate,
+    exr, picture, pictures, shaded, steps,
 };
 
 const WIDTH: usize = 33;
@@ -72,22 +72,57 @@ fn normals_are_those_of_the_sphere_and_face_the_eye() {
 fn shading_is_lambert_and_shadows_take_the_light_away() {
     let view = view();
     let hits = sphere(&view);
-    let dark = shaded::picture(&view, &hits, &[]).unwrap();
+    let dark = shaded::picture(&view, &hits, &[], Environment::Plain).unwrap();
     let light = |strength| Light::new(Vec3::new(0.0, -9.0, 0.0), strength);
     let level = |lights: &[Light]| {
-        let lit = shaded::picture(&view, &hits, lights).unwrap();
+        let lit = shaded::picture(&view, &hits, lights, Environment::Plain).unwrap();
         Colour::from_bytes(centre(&lit)).0.x - Colour::from_bytes(centre(&dark)).0.x
     };
     // In linear light, twice the strength is twice the light.
     let (once, twice) = (level(&[light(0.3)]), level(&[light(0.6)]));
     assert!(once > 0.15 && (twice / once - 2.0).abs() < 0.05, "{once} {twice}");
     let blocked = Light { blocked: vec![true; WIDTH * HEIGHT], ..light(0.6) };
-    assert_eq!(shaded::picture(&view, &hits, &[blocked]).unwrap().pixels(), dark.pixels());
+    assert_eq!(
+        shaded::picture(&view, &hits, &[blocked], Environment::Plain).unwrap().pixels(),
+        dark.pixels()
+    );
     let behind = Light::new(Vec3::Y, 1.0);
-    assert_eq!(centre(&shaded::picture(&view, &hits, &[behind]).unwrap()), centre(&dark));
+    assert_eq!(
+        centre(&shaded::picture(&view, &hits, &[behind], Environment::Plain).unwrap()),
+        centre(&dark)
+    );
     let few = Light { blocked: vec![true; 3], ..light(0.6) };
-    let error = shaded::picture(&view, &hits, &[few]).unwrap_err();
+    let error = shaded::picture(&view, &hits, &[few], Environment::Plain).unwrap_err();
     assert!(matches!(error, ShadeError::Count { got: 3, .. }), "{error}");
+}
+
+#[test]
+fn a_sky_is_seen_past_a_surface_and_mirrored_by_it() {
+    let view = view();
+    let hits = sphere(&view);
+    let in_the_sky = |lights: &[Light]| {
+        let picture = shaded::picture(&view, &hits, lights, Environment::Sky).unwrap();
+        let light = |pixel: &[u8; 3]| Colour::from_bytes(*pixel).0;
+        picture.pixels().iter().map(light).collect::<Vec<Vec3>>()
+    };
+    let unlit = in_the_sky(&[]);
+    // All rays are level, and so is what is seen at the centre of a ball: the horizon.
+    let miss = unlit[0];
+    assert!(hits.certificate.iter().zip(&unlit).all(|(c, p)| c.is_hit() || *p == miss));
+    let [middle, column] = [HEIGHT / 2, WIDTH / 2];
+    // Where normals rise or fall by 45 degrees, the zenith and the floor below the ball are seen.
+    let slope = (0.5_f64.sqrt() * HEIGHT as f64 / 3.0).round() as usize;
+    let [above, below] = [middle - slope, middle + slope].map(|row| unlit[row * WIDTH + column]);
+    assert!(above.z > 1.5 * above.x && below.z < 1.1 * below.x, "{above} {below}");
+    // A light behind the eye is a sun that the centre mirrors, unless it does not reach it.
+    let light = Light::new(Vec3::new(0.0, -2.0, 0.0), 0.5);
+    let centre = middle * WIDTH + column;
+    let lit = in_the_sky(&[light.clone()])[centre];
+    let matt = shaded::picture(&view, &hits, &[light.clone()], Environment::Plain).unwrap();
+    let matt = Colour::from_bytes(matt.pixels()[centre]).0;
+    assert!(lit.min_element() > matt.max_element() + 0.1, "{lit} {matt}");
+    let blocked = Light { blocked: vec![true; WIDTH * HEIGHT], ..light };
+    assert_eq!(in_the_sky(&[blocked]), unlit);
 }
 
 #[test]
@@ -209,7 +244,9 @@ fn numbers_that_are_none_are_painted_and_saved() {
         }
         let agreements: Vec<_> = (0..64).map(|i| Agreement::Correct { dt: odd[i % 8] }).collect();
         let lights = [Light::new(Vec3::NAN, f32::NAN), Light::new(Vec3::ZERO, f32::INFINITY)];
-        shaded::picture(&view, &hits, &lights).unwrap();
+        for environment in Environment::ALL {
+            shaded::picture(&view, &hits, &lights, environment).unwrap();
+        }
         for kind in ViewKind::ALL {
             let shown = picture(kind, &view, &hits, Some(&agreements)).unwrap();
             shown.with_legend().unwrap().save_png(&folder.path().join("odd.png")).unwrap();

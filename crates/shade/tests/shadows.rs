@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DVec3, Vec3};
 use zeroset_raycast::{Camera, Certificate, Domain, Hit, Hits, Projection, Ray, Request};
 use zeroset_raycast::{View, Work};
-use zeroset_shade::{Light, ShadeError, ShadowRays, shaded};
+use zeroset_shade::{Environment, Light, ShadeError, ShadowRays, shaded};
 
 /// A ball of radius 1/2 above the plane z = 0.
 const CENTRE: DVec3 = DVec3::new(0.0, 0.0, 1.5);
@@ -197,7 +197,7 @@ fn a_blocked_light_leaves_the_others_and_what_is_everywhere() {
         Light { blocked: blocked(&view, &hits, &light), ..light }
     };
     let shadowed = all.map(with_shadow);
-    let painted = shaded::picture(&view, &hits, &shadowed).unwrap();
+    let painted = shaded::picture(&view, &hits, &shadowed, Environment::Plain).unwrap();
     assert!(painted.description().ends_with("with shadows"));
     let mut alone = BTreeMap::new();
     for i in 0..hits.len() {
@@ -205,8 +205,9 @@ fn a_blocked_light_leaves_the_others_and_what_is_everywhere() {
         let reaching = shadowed.iter().filter(|light| !light.blocked[i]);
         let reaching: Vec<_> = reaching.map(|l| Light::new(l.direction, l.strength)).collect();
         let kind: Vec<_> = shadowed.iter().map(|light| light.blocked[i]).collect();
-        let alone =
-            alone.entry(kind).or_insert_with(|| shaded::picture(&view, &hits, &reaching).unwrap());
+        let alone = alone.entry(kind).or_insert_with(|| {
+            shaded::picture(&view, &hits, &reaching, Environment::Plain).unwrap()
+        });
         assert_eq!(painted.pixels()[i], alone.pixels()[i]);
     }
     assert!(alone.len() >= 5, "{:?}", alone.keys());
