@@ -92,7 +92,7 @@ impl Method for AmpGpu {
 
     fn set(&mut self, name: &str, value: &str) -> Result<(), KnobError> {
         match name {
-            "device" => self.device = Choice::read(value),
+            "device" => self.device = settings::read_device(value)?,
             name if self.knobs().iter().any(|knob| knob.name == name) => {
                 self.amp.set(name, value)?;
             }

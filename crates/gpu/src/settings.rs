@@ -2,9 +2,9 @@
 
 use zeroset_cpu::Implicit;
 use zeroset_expr::Tape;
-use zeroset_raycast::{Error, Knob, Scene, Unsupported};
+use zeroset_raycast::{Error, Knob, KnobError, Scene, Unsupported};
 
-use crate::device::{Choice, Device};
+use crate::device::{self, Choice, Device};
 
 /// The knobs of a method's twin on the CPU that have a meaning on a device, and `device`.
 pub(crate) fn knobs(twin: Vec<Knob>, choice: &Choice) -> Vec<Knob> {
@@ -16,6 +16,19 @@ pub(crate) fn knobs(twin: Vec<Knob>, choice: &Choice) -> Vec<Knob> {
         doc: "where it runs: a number or a part of a name in the list of `zeroset devices`, or auto: what the variable ZEROSET_DEVICE says, else the first (default auto)",
     });
     knobs
+}
+
+/// Reads the knob `device`: a device that there is.
+pub(crate) fn read_device(value: &str) -> Result<Choice, KnobError> {
+    let choice = Choice::read(value);
+    if choice == Choice::Auto {
+        return Ok(choice);
+    }
+    device::find(&choice).map(|_| choice).map_err(|why| KnobError::Value {
+        knob: "device".into(),
+        value: value.into(),
+        expected: format!("auto, or a device by its number or a part of its name; {why}"),
+    })
 }
 
 /// Is there a shader for the scene's function?

@@ -29,7 +29,7 @@ impl Choice {
     /// Reads `auto`, a number or a part of a name.
     pub fn read(text: &str) -> Self {
         match text.trim() {
-            "" | "auto" => Self::Auto,
+            "auto" => Self::Auto,
             name => Self::Named(name.into()),
         }
     }
@@ -37,7 +37,10 @@ impl Choice {
     /// The choice with the environment's in place of `auto`.
     fn resolved(&self) -> Self {
         match self {
-            Self::Auto => std::env::var(VARIABLE).map_or(Self::Auto, |text| Self::read(&text)),
+            Self::Auto => match std::env::var(VARIABLE) {
+                Ok(text) if !text.trim().is_empty() => Self::read(&text),
+                _ => Self::Auto,
+            },
             named => named.clone(),
         }
     }
@@ -164,7 +167,9 @@ fn chosen(choice: &Choice) -> Result<wgpu::Adapter, DeviceError> {
         return Ok(adapters.swap_remove(0));
     };
     let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
-    let by_name = |name: &String| name.to_lowercase().contains(&wanted.to_lowercase());
+    let by_name = |name: &String| {
+        !wanted.is_empty() && name.to_lowercase().contains(&wanted.to_lowercase())
+    };
     let index = match wanted.parse::<usize>() {
         Ok(number) => (number < names.len()).then_some(number),
         Err(_) => names.iter().position(by_name),
