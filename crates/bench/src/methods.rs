@@ -151,7 +151,7 @@ mod tests {
         let certified = Registry::standard().certified();
         assert_eq!(
             certified.iter().map(|m| m.id()).collect::<Vec<_>>(),
-            ["amp-sign", "amp-taylor"]
+            ["amp-sign", "amp-taylor", "amp-sign-gpu", "amp-taylor-gpu"]
         );
         for method in certified {
             assert!(method.knobs().iter().any(|k| k.name == "certify" && k.value == "on"));

@@ -118,7 +118,8 @@ fn a_sky_is_seen_past_a_surface_and_mirrored_by_it() {
     let light = Light::new(Vec3::new(0.0, -2.0, 0.0), 0.5);
     let centre = middle * WIDTH + column;
     let lit = in_the_sky(std::slice::from_ref(&light))[centre];
-    let matt = shaded::picture(&view, &hits, std::slice::from_ref(&light), Environment::Plain).unwrap();
+    let matt =
+        shaded::picture(&view, &hits, std::slice::from_ref(&light), Environment::Plain).unwrap();
     let matt = Colour::from_bytes(matt.pixels()[centre]).0;
     assert!(lit.min_element() > matt.max_element() + 0.1, "{lit} {matt}");
     let blocked = Light { blocked: vec![true; WIDTH * HEIGHT], ..light };

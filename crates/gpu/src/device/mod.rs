@@ -167,9 +167,8 @@ fn chosen(choice: &Choice) -> Result<wgpu::Adapter, DeviceError> {
         return Ok(adapters.swap_remove(0));
     };
     let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
-    let by_name = |name: &String| {
-        !wanted.is_empty() && name.to_lowercase().contains(&wanted.to_lowercase())
-    };
+    let by_name =
+        |name: &String| !wanted.is_empty() && name.to_lowercase().contains(&wanted.to_lowercase());
     let index = match wanted.parse::<usize>() {
         Ok(number) => (number < names.len()).then_some(number),
         Err(_) => names.iter().position(by_name),
