@@ -141,7 +141,7 @@ impl Intersector for Prepared {
             settings.bisections = 0;
         }
         let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
-        if compiled.device.is_lost() {
+        if compiled.is_stale() {
             compiled.update(&module(&self.implicit.tape)?, KERNEL)?;
         }
         let job = Job {

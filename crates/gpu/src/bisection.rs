@@ -1,5 +1,6 @@
 //! Interval bisection on the device: the method `tbisect-gpu`.
 
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use bytemuck::{Pod, Zeroable};
@@ -131,7 +132,7 @@ impl Intersector for Prepared {
     ) -> Result<Report, Error> {
         let Self { method: BisectionGpu { bisection, .. }, implicit, .. } = self;
         let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
-        if compiled.device.is_lost() {
+        if compiled.is_stale() {
             compiled.update(&module(&implicit.tape, bisection.rounding)?, KERNEL)?;
         }
         let goal = Goal::new(bisection, hits.request, rays.range());
@@ -140,7 +141,8 @@ impl Intersector for Prepared {
             kernel: &compiled.kernel,
             constants: &compiled.constants,
         };
-        let march = March { method: bisection, implicit, goal: &goal };
+        let ticket = AtomicU32::new(0);
+        let march = March { method: bisection, implicit, goal: &goal, ticket };
         let mut report = chunks::cast(&job, &march, rays, hits, progress)?;
         report.work += normals::fill(&implicit.tape, bisection.normals, rays, hits);
         Ok(report)
@@ -152,6 +154,8 @@ struct March<'a> {
     method: &'a Bisection,
     implicit: &'a Implicit,
     goal: &'a Goal,
+    /// What the answers of the latest run are marked with.
+    ticket: AtomicU32,
 }
 
 /// The deepest pieces: an index is exact in single precision.
@@ -202,7 +206,7 @@ impl Marcher {
             normal(f32::enclose_range(start.lo, start.hi))
         });
         let whole = (I::point(range[1]) - I::point(range[0])) * I::point(scale.recip());
-        let length = (whole.hi as f32).next_up();
+        let [_, length] = f32::enclose_range(whole.lo, whole.hi);
         let is_normal = |x: f32| x == 0.0 || x.is_normal();
         let is_inside = bounded::around(domain).into_iter().enumerate().all(|(axis, [lo, hi])| {
             let [from, to] = base[axis].map(f64::from);
@@ -276,7 +280,8 @@ fn normal([lo, hi]: [f32; 2]) -> [f32; 2] {
 #[repr(C)]
 struct SentSettings {
     rays: u32,
-    unused: [u32; 3],
+    ticket: u32,
+    unused: [u32; 2],
 }
 
 /// The shader's `Line`.
@@ -298,7 +303,7 @@ struct SentAnswer {
     index: u32,
     found: u32,
     intervals: u32,
-    unused: u32,
+    ticket: u32,
 }
 
 impl March<'_> {
@@ -343,7 +348,8 @@ impl<'a> Traffic for March<'a> {
     }
 
     fn settings(&self, rays: u32) -> SentSettings {
-        SentSettings { rays, unused: [0; 3] }
+        let ticket = self.ticket.fetch_add(1, Ordering::Relaxed) + 1;
+        SentSettings { rays, ticket, unused: [0; 2] }
     }
 
     fn reader(&self) -> Settler<'a> {
@@ -357,22 +363,30 @@ impl<'a> Traffic for March<'a> {
         answer: &SentAnswer,
     ) -> Result<Hit, Marcher> {
         marcher.hit.work += Work { intervals: answer.intervals.into(), ..Work::default() };
-        if answer.found == 1 {
+        // What no kernel has written is no answer.
+        let is_answered = answer.ticket == self.ticket.load(Ordering::Relaxed);
+        if answer.found == 1 && is_answered {
             let piece = marcher.piece(answer.index);
             let Marcher { ray, range, rounds, .. } = marcher;
             let whole = range[1] - range[0];
             let (hit, settled) = (&mut marcher.hit, &mut marcher.settled);
-            let next = settler.settle_small(hit, settled, ray, range, piece, whole);
-            if let Some(t) = next {
-                if rounds == MOST_ROUNDS {
-                    marcher.hit.bracket = [piece[0].max(t).min(range[1]), range[1]];
-                    marcher.hit.certificate = self.method.proof(Certificate::POSSIBLE_HIT);
-                } else if marcher.go_on(t, answer.index) {
+            // By rounding the last piece may lie beyond the range: it holds nothing that counts.
+            let next = if piece[0] > piece[1] {
+                None
+            } else {
+                settler.settle_small(hit, settled, ray, range, piece, whole)
+            };
+            if let Some(t) = next
+                && marcher.go_on(t, answer.index)
+            {
+                if rounds < MOST_ROUNDS {
                     return Err(marcher);
                 }
+                marcher.hit.bracket = [piece[0].max(t).min(range[1]), range[1]];
+                marcher.hit.certificate = self.method.proof(Certificate::POSSIBLE_HIT);
             }
         }
-        if !marcher.trusted {
+        if !(marcher.trusted && is_answered) {
             marcher.hit.certificate = marcher.hit.certificate.without(Certificate::FIRST);
         }
         Ok(marcher.hit)

@@ -1,11 +1,16 @@
 //! May a device's intervals be trusted on a domain?
 
 use zeroset_expr::{Op, Tape};
-use zeroset_ia::{Decorated, Decoration, Interval, Mirror, Scalar};
+use zeroset_ia::{Binary, Decorated, Decoration, Interval, Mirror, Scalar, portable};
 use zeroset_raycast::{Domain, Unsupported};
 
 /// 2^100: sub-values are at most as large.
 const LARGEST: f64 = f64::from_bits((1023 + 100) << 52);
+
+/// 2^50: what is squared within an operation is at most as large.
+const LARGEST_SQUARED: f64 = f64::from_bits((1023 + 50) << 52);
+/// 2^-16: a divisor is at least as large, as a part of the largest sub-value that it is made from.
+const MARGIN: f64 = f64::from_bits((1023 - 16) << 52);
 
 /// The root-box check: over the domain, and a little beyond, every operation is defined, and every
 /// sub-value is bounded, by the CPU's intervals and by the device's wider ones. Then this holds for every
@@ -26,6 +31,12 @@ pub(crate) fn check(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
     }
     let sides = around(domain).map(|[lo, hi]| f32::enclose_range(lo, hi));
 
+    // An operand that is out of range is not shown as a sub-value.
+    let constants = tape.constants().iter().flat_map(portable::enclosure);
+    if !constants.into_iter().all(|c| f64::from(c.abs()) <= LARGEST) {
+        return refused("a constant is too large");
+    }
+
     let mut bounded = true;
     let mut defined = true;
     let point = sides.map(|[lo, hi]| Decorated::new(Interval::new(lo, hi)));
@@ -36,26 +47,44 @@ pub(crate) fn check(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
     if !defined {
         return refused("the function is not defined everywhere");
     }
-    let point = sides.map(|[lo, hi]| Interval::<Mirror>::new(Mirror(lo), Mirror(hi)));
-    let within =
-        |x: &Interval<Mirror>| -LARGEST <= f64::from(x.lo.0) && f64::from(x.hi.0) <= LARGEST;
-    let portable = tape.instructions().iter().all(|i| match i.op {
-        Op::Unary(f, _) => zeroset_ia::portable::has_unary(f),
-        Op::Binary(f, ..) => zeroset_ia::portable::has_binary(f),
+    let has_forms = tape.instructions().iter().all(|i| match i.op {
+        Op::Unary(f, _) => portable::has_unary(f),
+        Op::Binary(f, ..) => portable::has_binary(f),
         _ => true,
     });
     // Without portable forms there is no shader either, which says what is missing.
-    if bounded && portable {
-        for divisor in divisors(tape) {
-            let x = divisor.evaluator(&point[0]).evaluate(point);
-            // A power's base, too.
-            if !(x.lo.0 > 0.0 || x.hi.0 < 0.0) {
-                return refused("a divisor may vanish");
+    if bounded && has_forms {
+        let point = sides.map(|[lo, hi]| Interval::<Mirror>::new(Mirror(lo), Mirror(hi)));
+        for (operand, role) in operands(tape) {
+            // The value, and the largest on the way to it.
+            let mut largest = 0.0_f64;
+            let x = operand.evaluator(&point[0]).visit(point, |x| {
+                largest = largest.max(size(x));
+            });
+            match role {
+                // The device may round otherwise than the mirror, by some units of what is largest.
+                Role::Divisor if !(least(&x) > MARGIN * largest.max(size(&x))) => {
+                    return refused("a divisor may vanish");
+                }
+                Role::Squared if !(size(&x) <= LARGEST_SQUARED) => bounded = false,
+                Role::Divisor | Role::Squared => {}
             }
         }
-        tape.evaluator(&point[0]).visit(point, |x| bounded &= within(x));
+        tape.evaluator(&point[0]).visit(point, |x| bounded &= size(x) <= LARGEST);
     }
     if bounded { Ok(()) } else { refused("the function is not bounded") }
+}
+
+/// The largest absolute value; NaN if an end is none.
+fn size(x: &Interval<Mirror>) -> f64 {
+    let [lo, hi] = x.bounds().map(|x| f64::from(x.0));
+    if lo.is_nan() || hi.is_nan() { f64::NAN } else { lo.abs().max(hi.abs()) }
+}
+
+/// The smallest absolute value.
+fn least(x: &Interval<Mirror>) -> f64 {
+    let [lo, hi] = x.bounds().map(|x| f64::from(x.0));
+    lo.max(-hi)
 }
 
 /// The domain's box and a little more: the boxes of a ray in it reach some units in the last place beyond.
@@ -64,14 +93,27 @@ pub(crate) fn around(domain: &Domain) -> [[f64; 2]; 3] {
     [0, 1, 2].map(|axis| [domain.min[axis] - beyond, domain.max[axis] + beyond])
 }
 
-/// By what is divided, each as a tape of its own.
-fn divisors(tape: &Tape) -> impl Iterator<Item = Tape> {
-    tape.instructions().iter().enumerate().filter_map(|(i, instruction)| {
-        let divisor = match instruction.op {
-            Op::Div(_, b) => b,
-            Op::Powi(a, n) if n < 0 => a,
-            _ => return None,
+/// What an operand must not be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Role {
+    /// Zero.
+    Divisor,
+    /// Beyond the root of what is bounded: the operation squares it within.
+    Squared,
+}
+
+/// Operands on which there are conditions, each as a tape of its own.
+fn operands(tape: &Tape) -> impl Iterator<Item = (Tape, Role)> {
+    let before = |i: usize, operand| {
+        Tape::new(tape.instructions()[..i].to_vec(), tape.constants().to_vec(), operand)
+    };
+    tape.instructions().iter().enumerate().flat_map(move |(i, instruction)| {
+        let conditions = match instruction.op {
+            Op::Div(_, b) => vec![(b, Role::Divisor)],
+            Op::Powi(a, n) if n < 0 => vec![(a, Role::Divisor)],
+            Op::Binary(Binary::Hypot, a, b) => vec![(a, Role::Squared), (b, Role::Squared)],
+            _ => Vec::new(),
         };
-        Some(Tape::new(tape.instructions()[..i].to_vec(), tape.constants().to_vec(), divisor))
+        conditions.into_iter().map(move |(operand, role)| (before(i, operand), role))
     })
 }

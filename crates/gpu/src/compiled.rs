@@ -32,9 +32,19 @@ impl Compiled {
         if self.device.is_lost() || module.shader(kernel) != self.source {
             *self = Self::new(&self.choice, module, kernel)?;
         } else {
-            self.device.write(&self.constants, &module.constants())?;
+            let written = self.device.write(&self.constants, &module.constants());
+            if written.is_err() {
+                // Whose constants are there now is not known.
+                self.source.clear();
+            }
+            written?;
         }
         Ok(())
+    }
+
+    /// Must it be [updated](Self::update) before it is used? The device was lost, or an update failed.
+    pub(crate) fn is_stale(&self) -> bool {
+        self.device.is_lost() || self.source.is_empty()
     }
 }
 

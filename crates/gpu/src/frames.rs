@@ -12,7 +12,7 @@ use zeroset_raycast::{Camera, Error, Method, Progress, Projection, Scene, Unsupp
 
 use crate::amp::{AmpGpu, SentMarch, module};
 use crate::compiled::Compiled;
-use crate::device::{AsBinding, Buffer, DeviceError};
+use crate::device::{AsBinding, Buffer, Device, DeviceError};
 
 /// The whole shader of frames of a function, as it is compiled for a device.
 ///
@@ -70,6 +70,8 @@ pub struct Frames {
 
 /// The buffers of an image's size.
 struct Canvas {
+    /// Where they are: a lost device is followed by another.
+    device: Arc<Device>,
     size: [usize; 2],
     settings: Buffer<SentSettings>,
     background: Buffer<u32>,
@@ -93,7 +95,8 @@ struct SentSettings {
     rows: [u32; 2],
     lights: u32,
     shadows: u32,
-    unused: [u32; 2],
+    longest: f32,
+    unused: u32,
     light: [[f32; 4]; MOST_LIGHTS],
 }
 
@@ -163,13 +166,13 @@ impl Frames {
             let count = look.lights.len();
             return Err(Error::Device(format!("{count} lights; a frame takes {MOST_LIGHTS}")));
         }
-        if self.compiled.device.is_lost() {
+        if self.compiled.is_stale() {
             self.compiled.update(&module(&self.implicit.tape)?, KERNEL)?;
-            self.canvas = None;
         }
         let device = Arc::clone(&self.compiled.device);
         let size = [view.width, view.height];
-        if self.canvas.as_ref().is_none_or(|canvas| canvas.size != size) {
+        let fits = |canvas: &Canvas| canvas.size == size && Arc::ptr_eq(&canvas.device, &device);
+        if !self.canvas.as_ref().is_some_and(fits) {
             self.canvas = Some(self.canvas(size)?);
         }
         let canvas = self.canvas.as_ref().expect("made above");
@@ -206,7 +209,7 @@ impl Frames {
     pub fn pixels(&self) -> Result<Vec<[u8; 3]>, Error> {
         let none = || Error::Device("no frame was drawn".into());
         let canvas = self.canvas.as_ref().ok_or_else(none)?;
-        let pixels = self.compiled.device.read(&canvas.image, canvas.image.len())?;
+        let pixels = canvas.device.read(&canvas.image, canvas.image.len())?;
         let bytes = |pixel: u32| {
             let [r, g, b, _] = pixel.to_le_bytes();
             [r, g, b]
@@ -232,7 +235,13 @@ impl Frames {
             .into());
         }
         let (settings, image) = (device.uniform(1)?, device.storage(width * height)?);
-        Ok(Canvas { size, settings, background: device.storage(height)?, image })
+        Ok(Canvas {
+            device: Arc::clone(device),
+            size,
+            settings,
+            background: device.storage(height)?,
+            image,
+        })
     }
 
     fn sent(&self, view: &View, look: &Look<'_>) -> SentSettings {
@@ -262,7 +271,8 @@ impl Frames {
             rows: [0; 2],
             lights: look.lights.len() as u32,
             shadows: (look.shadows == Shadows::On).into(),
-            unused: [0; 2],
+            longest: self.settings.longest as f32,
+            unused: 0,
             light,
         }
     }

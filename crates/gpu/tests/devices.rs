@@ -26,7 +26,7 @@ fn unknown_devices_are_named() {
     if adapter::device().is_none() {
         return;
     }
-    for wanted in ["no such device", "99"] {
+    for wanted in ["no such device", "987654321"] {
         match Device::open(&Choice::read(wanted)) {
             Err(DeviceError::Unknown { wanted: named, known }) => {
                 assert_eq!(named, wanted);
@@ -70,7 +70,8 @@ fn a_lost_device_is_an_error_and_then_opened_anew() {
         other => panic!("{other:?}"),
     }
     assert!(matches!(frames.pixels(), Err(Error::Device(_))));
-    // Both mend themselves.
+    // Both mend themselves, and frames even if parameters are set first.
+    frames.set_parameters(&Parameters::default()).unwrap();
     assert_eq!(count(), before);
     frames.draw(&view, &look(&background), &Progress::new()).unwrap();
     assert_eq!(frames.pixels().unwrap(), pixels);
@@ -159,6 +160,28 @@ fn hostile_functions_and_rays_end_without_a_panic() {
             }
         }
     }
+}
+
+#[test]
+fn bounds_that_overflow_within_are_refused() {
+    // Squares within hypot, and exponents, are no sub-values; the intervals of a device would lose the
+    // infinity, and prove a miss.
+    for (equation, half, says) in [
+        ("hypot(exp(10*x), y) = 2", 5.0, "not bounded"),
+        ("hypot(x, y) = 5e19", 1e20, "not bounded"),
+        ("x^2 + 1e39*y = 1", 2.0, "too large"),
+        ("1/(x^2+1e-9) = y", 2.0, "divisor"),
+    ] {
+        let half = DVec3::splat(half);
+        let domain = Domain::new(-half, half).unwrap();
+        let scene = Scene::new(equation, Function::parse(equation).unwrap(), domain);
+        let why = BisectionGpu::default().supports(&scene).unwrap_err().to_string();
+        assert!(why.contains(says), "{equation}: {why}");
+    }
+    assert!(
+        adapter::device().is_none()
+            || BisectionGpu::default().supports(&scene("hypot(x, y) = 1")).is_ok()
+    );
 }
 
 #[test]

@@ -170,8 +170,9 @@ fn chosen(choice: &Choice) -> Result<wgpu::Adapter, DeviceError> {
     let by_name =
         |name: &String| !wanted.is_empty() && name.to_lowercase().contains(&wanted.to_lowercase());
     let index = match wanted.parse::<usize>() {
-        Ok(number) => (number < names.len()).then_some(number),
-        Err(_) => names.iter().position(by_name),
+        Ok(number) if number < names.len() => Some(number),
+        // A number may be a part of a name, too.
+        _ => names.iter().position(by_name),
     };
     let unknown = || DeviceError::Unknown {
         wanted: wanted.clone(),

@@ -21,8 +21,9 @@ struct Settings {
     lights: u32,
     // 1 for on.
     shadows: u32,
+    // No line is longer within the domain.
+    longest: f32,
     unused3: u32,
-    unused4: u32,
     // Unit vectors towards lights; w: strength.
     light: array<vec4f, 8>,
 }
@@ -71,6 +72,10 @@ fn segment_of(origin: vec3f, direction: vec3f) -> Segment {
     segment.start = origin + range.x * direction;
     segment.direction = direction;
     segment.length = range.y - range.x;
+    // From very far away, single precision does not tell where a line enters the domain.
+    if segment.length > 1.5 * settings.longest {
+        segment.length = 0.0;
+    }
     return segment;
 }
 

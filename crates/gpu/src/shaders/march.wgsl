@@ -133,6 +133,10 @@ fn march(segment: Segment, bisections: u32) -> Answer {
             }
         }
         s = min(before.s + step, segment.length);
+        // A step that is none would never end.
+        if s <= before.s {
+            break;
+        }
     }
     return answer;
 }

@@ -3,9 +3,10 @@
 
 struct Settings {
     rays: u32,
+    // Comes back with each answer.
+    ticket: u32,
     unused0: u32,
     unused1: u32,
-    unused2: u32,
 }
 
 // From its base, which is enclosed in a box, a ray goes `length` directions far.
@@ -25,7 +26,7 @@ struct Answer {
     index: u32,
     found: u32,
     intervals: u32,
-    unused: u32,
+    ticket: u32,
 }
 
 @group(0) @binding(1) var<uniform> settings: Settings;
@@ -53,6 +54,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
     var depth = line.depths & 0xffu;
     var index = line.index;
     var answer: Answer;
+    answer.ticket = settings.ticket;
     loop {
         // Exact: an index has at most 24 bits.
         let part = bitcast<f32>((127u - depth) << 23u) * line.length;
