@@ -1,4 +1,4 @@
-//! Constants for a surface: AMP's base step and thresholds by measurement, Section 4.5 of [singh2010].
+//! Constants for a surface: AMP's base step and thresholds by measurement, Section 4.5 of \[singh2010\].
 
 use std::time::{Duration, Instant};
 

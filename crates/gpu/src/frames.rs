@@ -54,7 +54,7 @@ pub struct Look<'a> {
 }
 
 /// Shaded frames by adaptive marching points, made on the device from the camera to the image
-/// (Algorithm 2 of [singh2010]): for animations, and for times as the paper has them.
+/// (Algorithm 2 of \[singh2010\]): for animations, and for times as the paper has them.
 ///
 /// Rays are made in single precision, so a frame is a picture, not a set of answers: for those, and for
 /// cameras farther away than single precision resolves, cast with [`AmpGpu`]. Surfaces are lit on both

@@ -1,4 +1,4 @@
-//! Adaptive marching points, [singh2010].
+//! Adaptive marching points, \[singh2010\].
 //!
 //! S(p(t)) is sampled along the ray from `t_s` to `t_e` until a step holds a root by the [root
 //! test](RootTest); ten bisections then narrow it (Algorithm 1). Eq. 2 adapts the step: halved near

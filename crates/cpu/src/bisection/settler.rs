@@ -77,8 +77,7 @@ impl<'a> Settler<'a> {
         Self { method, domain: &implicit.domain, goal, finish }
     }
 
-    /// Settles a piece of a ray whose range `range` contains all that counts; `whole` is the length of
-    /// which pieces are fractions. Gives where the ray goes on, or puts the answer in `hit`.
+    /// As [`settle_small`](Self::settle_small), for any reason.
     pub(super) fn settle(
         &mut self,
         hit: &mut Hit,
@@ -106,7 +105,8 @@ impl<'a> Settler<'a> {
         None
     }
 
-    /// As [`settle`](Self::settle), of a piece that is small enough.
+    /// Settles a piece, that is small enough, of a ray whose range `range` contains all that counts; `whole` is
+    /// the length of which pieces are fractions. Gives where the ray goes on, or puts the answer in `hit`.
     pub fn settle_small(
         &mut self,
         hit: &mut Hit,
