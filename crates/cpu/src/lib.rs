@@ -16,7 +16,8 @@ pub mod tiles;
 
 pub use amp::{Adaptation, Amp, RootTest};
 pub use bisection::{
-    Algorithm, Arithmetic, Bisection, Finishing, Goal, Packets, Poles, Settled, Settler, Stop,
+    Algorithm, Arithmetic, Bisection, Finishing, Goal, Packets, Poles, Reason, Settled, Settler,
+    Stop,
 };
 pub use implicit::Implicit;
 pub use normals::Normals;

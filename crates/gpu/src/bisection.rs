@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
-use zeroset_cpu::{Bisection, Finishing, Goal, Implicit, Settled, Settler, Stop, normals};
+use zeroset_cpu::{Bisection, Finishing, Goal, Implicit, Reason, Settled, Settler, Stop, normals};
 use zeroset_expr::{Parameters, Tape};
 use zeroset_ia::{Interval, Rounding, Scalar, Set};
 use zeroset_raycast::{
@@ -374,7 +374,7 @@ impl<'a> Traffic for March<'a> {
             let next = if piece[0] > piece[1] {
                 None
             } else {
-                settler.settle_small(hit, settled, ray, range, piece, whole)
+                settler.settle(hit, settled, ray, range, piece, whole, Reason::Small)
             };
             if let Some(t) = next
                 && marcher.go_on(t, answer.index)

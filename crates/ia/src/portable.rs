@@ -65,9 +65,10 @@ fn near<R: Portable>(x: R, c: f64) -> I<R> {
 /// The enclosure of an interval of literals.
 #[inline(always)]
 fn between<R: Portable>(x: R, lo: f64, hi: f64) -> I<R> {
-    let [lo, hi] = f32::enclose_range(lo.next_down(), hi.next_up());
-    // No literal is subnormal.
-    let (lo, hi) = (if lo == 0.0 || lo.is_normal() { lo } else { 0.0 }, hi);
+    // 0 is exact, and no literal is subnormal.
+    let lo = if lo == 0.0 { lo } else { lo.next_down() };
+    let hi = if hi == 0.0 { hi } else { hi.next_up() };
+    let [lo, hi] = f32::enclose_range(lo, hi);
     I::new(x.splat(lo), x.splat(hi))
 }
 

@@ -43,7 +43,7 @@ pub(super) enum Verdict {
 
 /// Why a piece is bisected no further.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Reason {
+pub enum Reason {
     /// It is small enough: it may hold a root.
     Small,
     /// The function is monotone on it and changes its sign, as rounded values have it.

@@ -26,5 +26,6 @@ mod monotone;
 mod prepared;
 mod settler;
 
+pub use march::Reason;
 pub use method::{Algorithm, Arithmetic, Bisection, Finishing, Packets, Poles, Stop};
 pub use settler::{Goal, Settled, Settler};

@@ -77,8 +77,9 @@ impl<'a> Settler<'a> {
         Self { method, domain: &implicit.domain, goal, finish }
     }
 
-    /// As [`settle_small`](Self::settle_small), for any reason.
-    pub(super) fn settle(
+    /// Settles a piece of a ray whose range `range` contains all that counts; `whole` is the length of
+    /// which pieces are fractions. Gives where the ray goes on, or puts the answer in `hit`.
+    pub fn settle(
         &mut self,
         hit: &mut Hit,
         settled: &mut Settled,
@@ -103,20 +104,6 @@ impl<'a> Settler<'a> {
         hit.bracket = bracket;
         hit.certificate = self.method.proof(certificate);
         None
-    }
-
-    /// Settles a piece, that is small enough, of a ray whose range `range` contains all that counts; `whole` is
-    /// the length of which pieces are fractions. Gives where the ray goes on, or puts the answer in `hit`.
-    pub fn settle_small(
-        &mut self,
-        hit: &mut Hit,
-        settled: &mut Settled,
-        ray: Ray,
-        range: [f64; 2],
-        piece: [f64; 2],
-        whole: f64,
-    ) -> Option<f64> {
-        self.settle(hit, settled, ray, range, piece, whole, Reason::Small)
     }
 
     /// What the certifying finish finds from the start of a piece on.
