@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use zeroset::bench::{Sample, Tolerance, Truths, Verdict, judge, truth};
 use zeroset::cpu::amp::RootTest;
 use zeroset::cpu::{Amp, Bisection, Finishing, Stop};
-use zeroset::gpu::{AmpGpu, BisectionGpu, Choice, Frames, Look, Shadows};
+use zeroset::gpu::{AmpGpu, BisectionGpu, Frames, Look, Shadows};
 use zeroset::ia::Rounding;
 use zeroset::raycast::{
     Camera, Hits, Intersector, Method, Progress, RayBatch, Rays, Request, Scene, View, Work,
@@ -89,7 +89,7 @@ fn ms(time: Duration) -> f64 {
 /// The twins of a test: on the CPU and, if there is a device, on it.
 fn twins(test: RootTest) -> [Box<dyn Method>; 2] {
     let amp = Amp { test, ..Amp::default() };
-    let device = AmpGpu { amp: amp.clone(), device: Choice::Auto };
+    let device = AmpGpu::new(test);
     [Box::new(amp), Box::new(device)]
 }
 
@@ -159,7 +159,7 @@ pub(crate) fn table_1_device(size: usize) -> Result<(), Failure> {
         let (palette, background) = (shaded::palette(), shaded::background(size));
         let mut rates = Vec::new();
         for test in [RootTest::Sign, RootTest::Taylor] {
-            let method = AmpGpu { amp: Amp { test, ..Amp::default() }, device: Choice::Auto };
+            let method = AmpGpu::new(test);
             let mut frames = Frames::new(&method, &scene)?;
             for shadows in [Shadows::Off, Shadows::On] {
                 let look = Look {
@@ -212,14 +212,13 @@ pub(crate) fn table_2(size: usize) -> Result<(), Failure> {
     for (i, [interval, sign]) in TABLE_2.iter().enumerate() {
         let scene = row(2, i + 1)?;
         let view = View::new(Camera::facing(&scene.domain), size, size);
-        let bisection = |rounding| BisectionGpu {
-            bisection: Bisection {
+        let bisection = |rounding| {
+            BisectionGpu::auto(Bisection {
                 stop: Stop::Depth(10),
                 finish: Finishing::Accept,
                 rounding,
                 ..Bisection::tbisect()
-            },
-            device: Choice::Auto,
+            })
         };
         let on = |method: &dyn Method| {
             let intersector = method.prepare(&scene)?;

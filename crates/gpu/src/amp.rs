@@ -1,31 +1,34 @@
 //! Adaptive marching points on the device: the methods `amp-sign-gpu` and `amp-taylor-gpu`.
 
-use std::sync::{Mutex, PoisonError};
-
 use bytemuck::{Pod, Zeroable};
 use zeroset_cpu::amp::{Adaptation, Amp, RootTest, Segment, Settings};
-use zeroset_cpu::{Implicit, Normals, normals};
-use zeroset_expr::{Parameters, Tape};
+use zeroset_cpu::{Implicit, Normals};
+use zeroset_expr::Tape;
 use zeroset_ia::Rounding;
 use zeroset_raycast::{
-    Certificate, Certification, Certifier, Clip, Error, Hit, Hits, Intersector, Knob, KnobError,
-    Method, Progress, Ray, Rays, Report, Request, Scene, Unsupported, Work, knob,
+    Certificate, Certification, Certifier, Clip, Error, Hit, Hits, Progress, Ray, Rays, Report,
+    Request, Unsupported, Work,
 };
 
 use crate::chunks::{self, Job, Traffic};
-use crate::compiled::Compiled;
-use crate::device::Choice;
 use crate::program::{Module, Numbers};
-use crate::settings;
+use crate::twin::{OnDevice, Twin};
 
-/// The march of [`Amp`] on a device, a ray an invocation: same knobs, same rule for what the paper leaves
-/// open, same steps. What differs is what the device's arithmetic may: see `docs/deviations.md`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct AmpGpu {
-    /// The march; its instruction set has no meaning here.
-    pub amp: Amp,
-    /// Where it runs.
-    pub device: Choice,
+/// The march of [`Amp`] on a device, a ray an invocation: same steps. What differs is what the device's
+/// arithmetic may: see `docs/deviations.md`.
+pub type AmpGpu = OnDevice<Amp>;
+
+impl Default for AmpGpu {
+    fn default() -> Self {
+        Self::auto(Amp::default())
+    }
+}
+
+impl AmpGpu {
+    /// The march with a root test, and the default knobs.
+    pub fn new(test: RootTest) -> Self {
+        Self::auto(Amp { test, ..Amp::default() })
+    }
 }
 
 const KERNEL: &str = concat!(include_str!("shaders/march.wgsl"), include_str!("shaders/amp.wgsl"));
@@ -46,114 +49,45 @@ pub fn shader(tape: &Tape) -> Result<String, Unsupported> {
     Ok(module(tape)?.shader(KERNEL))
 }
 
-impl AmpGpu {
-    /// The march with a root test, and the default knobs.
-    pub fn new(test: RootTest) -> Self {
-        Self { amp: Amp { test, ..Amp::default() }, device: Choice::Auto }
-    }
-}
+impl Twin for Amp {
+    type Plan = Settings;
+    const KERNEL: &'static str = KERNEL;
 
-impl Method for AmpGpu {
-    fn id(&self) -> &'static str {
-        match self.amp.test {
-            RootTest::Sign => "amp-sign-gpu",
-            RootTest::Taylor => "amp-taylor-gpu",
+    fn names(&self) -> [&'static str; 2] {
+        match self.test {
+            RootTest::Sign => ["amp-sign-gpu", "amp-sign on the GPU [singh2010]"],
+            RootTest::Taylor => ["amp-taylor-gpu", "amp-taylor on the GPU [singh2010]"],
         }
     }
 
-    fn summary(&self) -> &'static str {
-        match self.amp.test {
-            RootTest::Sign => "amp-sign on the GPU [singh2010]",
-            RootTest::Taylor => "amp-taylor on the GPU [singh2010]",
-        }
+    fn module(&self, tape: &Tape) -> Result<Module, Unsupported> {
+        module(tape)
     }
 
-    fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
-        self.amp.supports(scene)?;
-        settings::shader(self.id(), scene, |tape| module(tape).map(|_| ()))?;
-        settings::available(&self.device)
+    fn plan(&self, implicit: &Implicit, published_step: Option<f64>) -> Result<Settings, Error> {
+        Settings::new(self, implicit, published_step)
     }
 
-    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Intersector>, Error> {
-        let implicit = Implicit::new(self.id(), scene)?;
-        let published_step = scene.published_step;
-        let settings = Settings::new(&self.amp, &implicit, published_step)?;
-        let compiled = Compiled::new(&self.device, &module(&implicit.tape)?, KERNEL)?;
-        let method = self.clone();
-        let compiled = Mutex::new(compiled);
-        let prepared = Prepared { method, implicit, published_step, settings, compiled };
-        chunks::warm_up(&prepared, &scene.domain)?;
-        Ok(Box::new(prepared))
-    }
-
-    fn knobs(&self) -> Vec<Knob> {
-        settings::knobs(self.amp.knobs(), &self.device)
-    }
-
-    fn set(&mut self, name: &str, value: &str) -> Result<(), KnobError> {
-        match name {
-            "device" => self.device = settings::read_device(value)?,
-            name if self.knobs().iter().any(|knob| knob.name == name) => {
-                self.amp.set(name, value)?;
-            }
-            _ => return Err(knob::unknown(self.id(), name, &self.knobs())),
-        }
-        Ok(())
-    }
-
-    fn for_precision(&mut self, width: f64, scene: &Scene) {
-        self.amp.for_precision(width, scene);
-    }
-
-    fn boxed(&self) -> Box<dyn Method> {
-        Box::new(self.clone())
-    }
-}
-
-struct Prepared {
-    method: AmpGpu,
-    implicit: Implicit,
-    published_step: Option<f64>,
-    settings: Settings,
-    compiled: Mutex<Compiled>,
-}
-
-impl Intersector for Prepared {
-    fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
-        let mut implicit = self.implicit.clone();
-        implicit.set_parameters(values)?;
-        let settings = Settings::new(&self.method.amp, &implicit, self.published_step)?;
-        let compiled = self.compiled.get_mut().unwrap_or_else(PoisonError::into_inner);
-        compiled.update(&module(&implicit.tape)?, KERNEL)?;
-        (self.settings, self.implicit) = (settings, implicit);
-        Ok(())
-    }
-
-    fn intersect(
+    fn cast(
         &self,
+        job: &Job<'_>,
+        implicit: &Implicit,
+        settings: &Settings,
         rays: Rays<'_>,
         hits: &mut Hits,
         progress: &Progress,
     ) -> Result<Report, Error> {
-        let mut settings = self.settings;
-        if hits.request == Request::Any && self.method.amp.test == RootTest::Sign {
+        let mut settings = *settings;
+        if hits.request == Request::Any && self.test == RootTest::Sign {
             // As on the CPU: the Taylor test knows only when bisection has not refuted the step.
             settings.bisections = 0;
         }
-        let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
-        if compiled.is_stale() {
-            compiled.update(&module(&self.implicit.tape)?, KERNEL)?;
-        }
-        let job = Job {
-            device: &compiled.device,
-            kernel: &compiled.kernel,
-            constants: &compiled.constants,
-        };
-        let amp = &self.method.amp;
-        let march = March { amp, implicit: &self.implicit, settings, range: rays.range() };
-        let mut report = chunks::cast(&job, &march, rays, hits, progress)?;
-        report.work += normals::fill(&self.implicit.tape, Normals::Gradient, rays, hits);
-        Ok(report)
+        let march = March { amp: self, implicit, settings, range: rays.range() };
+        chunks::cast(job, &march, rays, hits, progress)
+    }
+
+    fn normals(&self) -> Normals {
+        Normals::Gradient
     }
 }
 

@@ -1,41 +1,31 @@
 //! Interval bisection on the device: the method `tbisect-gpu`.
 
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
-use zeroset_cpu::{Bisection, Finishing, Goal, Implicit, Reason, Settled, Settler, Stop, normals};
-use zeroset_expr::{Parameters, Tape};
+use zeroset_cpu::{Bisection, Finishing, Goal, Implicit, Normals, Reason, Settled, Settler, Stop};
+use zeroset_expr::Tape;
 use zeroset_ia::{Interval, Rounding, Scalar, Set};
 use zeroset_raycast::{
-    Certificate, Domain, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress, Ray,
-    Rays, Report, Scene, Unsupported, Work, knob,
+    Certificate, Domain, Error, Hit, Hits, Progress, Ray, Rays, Report, Unsupported, Work,
 };
 
 use crate::bounded;
 use crate::chunks::{self, Job, Traffic};
-use crate::compiled::Compiled;
-use crate::device::Choice;
 use crate::program::{Module, Numbers};
-use crate::settings;
+use crate::twin::{OnDevice, Twin};
 
 /// `tbisect` on a device, a ray an invocation.
 ///
 /// The device excludes pieces of the ray, and the CPU settles what is left as it does for `tbisect`. With
 /// outward rounding, excluded is proven: intervals there make no use of what a shading language does
 /// not promise (`zeroset_ia::portable`).
-#[derive(Clone, Debug, PartialEq)]
-pub struct BisectionGpu {
-    /// The settings; packets, arithmetic, poles and delta have no meaning here.
-    pub bisection: Bisection,
-    /// Where it runs.
-    pub device: Choice,
-}
+pub type BisectionGpu = OnDevice<Bisection>;
 
 impl Default for BisectionGpu {
     fn default() -> Self {
-        Self { bisection: Bisection::tbisect(), device: Choice::Auto }
+        Self::auto(Bisection::tbisect())
     }
 }
 
@@ -56,96 +46,38 @@ pub fn shader(tape: &Tape, rounding: Rounding) -> Result<String, Unsupported> {
     Ok(module(tape, rounding)?.shader(KERNEL))
 }
 
-impl Method for BisectionGpu {
-    fn id(&self) -> &'static str {
-        "tbisect-gpu"
+impl Twin for Bisection {
+    type Plan = ();
+    const KERNEL: &'static str = KERNEL;
+
+    fn names(&self) -> [&'static str; 2] {
+        ["tbisect-gpu", "tbisect on the GPU [knoll2007]"]
     }
 
-    fn summary(&self) -> &'static str {
-        "tbisect on the GPU [knoll2007]"
+    fn module(&self, tape: &Tape) -> Result<Module, Unsupported> {
+        module(tape, self.rounding)
     }
 
-    fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
-        settings::shader(self.id(), scene, |tape| {
-            module(tape, self.bisection.rounding)?;
-            bounded::check(tape, &scene.domain)
-        })?;
-        settings::available(&self.device)
+    fn plan(&self, implicit: &Implicit, _: Option<f64>) -> Result<(), Error> {
+        Ok(bounded::check(&implicit.tape, &implicit.domain)?)
     }
 
-    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Intersector>, Error> {
-        let implicit = Implicit::new(self.id(), scene)?;
-        bounded::check(&implicit.tape, &implicit.domain)?;
-        let module = module(&implicit.tape, self.bisection.rounding)?;
-        let compiled = Mutex::new(Compiled::new(&self.device, &module, KERNEL)?);
-        let prepared = Prepared { method: self.clone(), implicit, compiled };
-        chunks::warm_up(&prepared, &scene.domain)?;
-        Ok(Box::new(prepared))
-    }
-
-    fn knobs(&self) -> Vec<Knob> {
-        settings::knobs(self.bisection.knobs(), &self.device)
-    }
-
-    fn set(&mut self, name: &str, value: &str) -> Result<(), KnobError> {
-        match name {
-            "device" => self.device = settings::read_device(value)?,
-            name if self.knobs().iter().any(|knob| knob.name == name) => {
-                self.bisection.set(name, value)?;
-            }
-            _ => return Err(knob::unknown(self.id(), name, &self.knobs())),
-        }
-        Ok(())
-    }
-
-    fn for_precision(&mut self, width: f64, scene: &Scene) {
-        self.bisection.for_precision(width, scene);
-    }
-
-    fn boxed(&self) -> Box<dyn Method> {
-        Box::new(self.clone())
-    }
-}
-
-struct Prepared {
-    method: BisectionGpu,
-    implicit: Implicit,
-    compiled: Mutex<Compiled>,
-}
-
-impl Intersector for Prepared {
-    fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
-        let mut implicit = self.implicit.clone();
-        implicit.set_parameters(values)?;
-        bounded::check(&implicit.tape, &implicit.domain)?;
-        let compiled = self.compiled.get_mut().unwrap_or_else(PoisonError::into_inner);
-        compiled.update(&module(&implicit.tape, self.method.bisection.rounding)?, KERNEL)?;
-        self.implicit = implicit;
-        Ok(())
-    }
-
-    fn intersect(
+    fn cast(
         &self,
+        job: &Job<'_>,
+        implicit: &Implicit,
+        (): &(),
         rays: Rays<'_>,
         hits: &mut Hits,
         progress: &Progress,
     ) -> Result<Report, Error> {
-        let Self { method: BisectionGpu { bisection, .. }, implicit, .. } = self;
-        let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
-        if compiled.is_stale() {
-            compiled.update(&module(&implicit.tape, bisection.rounding)?, KERNEL)?;
-        }
-        let goal = Goal::new(bisection, hits.request, rays.range());
-        let job = Job {
-            device: &compiled.device,
-            kernel: &compiled.kernel,
-            constants: &compiled.constants,
-        };
-        let ticket = AtomicU32::new(0);
-        let march = March { method: bisection, implicit, goal: &goal, ticket };
-        let mut report = chunks::cast(&job, &march, rays, hits, progress)?;
-        report.work += normals::fill(&implicit.tape, bisection.normals, rays, hits);
-        Ok(report)
+        let goal = Goal::new(self, hits.request, rays.range());
+        let march = March { method: self, implicit, goal: &goal, ticket: AtomicU32::new(0) };
+        chunks::cast(job, &march, rays, hits, progress)
+    }
+
+    fn normals(&self) -> Normals {
+        self.normals
     }
 }
 

@@ -115,7 +115,7 @@ impl Frames {
     pub fn new(method: &AmpGpu, scene: &Scene) -> Result<Self, Error> {
         let implicit = Implicit::new(method.id(), scene)?;
         let published_step = scene.published_step;
-        let settings = Settings::new(&method.amp, &implicit, published_step)?;
+        let settings = Settings::new(&method.twin, &implicit, published_step)?;
         let compiled = Compiled::new(&method.device, &module(&implicit.tape)?, KERNEL)?;
         let method = method.clone();
         let mut frames =
@@ -141,7 +141,7 @@ impl Frames {
     pub fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
         let mut implicit = self.implicit.clone();
         implicit.set_parameters(values)?;
-        let settings = Settings::new(&self.method.amp, &implicit, self.published_step)?;
+        let settings = Settings::new(&self.method.twin, &implicit, self.published_step)?;
         self.compiled.update(&module(&implicit.tape)?, KERNEL)?;
         (self.settings, self.implicit) = (settings, implicit);
         Ok(())
@@ -258,7 +258,7 @@ impl Frames {
             *sent = with(direction.as_dvec3(), (*strength).into());
         }
         SentSettings {
-            march: SentMarch::new(self.method.amp.test, &self.settings),
+            march: SentMarch::new(self.method.twin.test, &self.settings),
             eye: with(view.camera.eye, perspective),
             forward: with(forward, 0.0),
             right: with(extent * right, view.footprint(1.0)),
