@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
-use zeroset_cpu::{Bisection, Finishing, Goal, Implicit, Normals, Reason, Settled, Settler, Stop};
+use zeroset_cpu::{Bisection, Goal, Implicit, Normals, Reason, Settled, Settler};
 use zeroset_expr::Tape;
 use zeroset_ia::{Interval, Rounding, Scalar, Set};
 use zeroset_raycast::{
@@ -120,13 +120,7 @@ struct Marcher {
 type I = Interval<f64, Set>;
 
 impl Marcher {
-    fn new(
-        ray: Ray,
-        range: [f64; 2],
-        domain: &Domain,
-        depth: impl Fn(f64) -> u32,
-        miss: Hit,
-    ) -> Self {
+    fn new(ray: Ray, range: [f64; 2], domain: &Domain, last: u32, miss: Hit) -> Self {
         // A power of two makes the largest component one of [1, 2): exact, but for the tiniest of others.
         let largest = f64::from(ray.direction.abs().max_element());
         let scale = 2.0_f64.powi(-(largest.log2().floor() as i32));
@@ -151,7 +145,6 @@ impl Marcher {
             && base.iter().flatten().all(|x| x.is_finite())
             && length.is_finite()
             && f64::from(length) > 2.0_f64.powi(-90);
-        let last = depth(range[1] - range[0]);
         Self {
             ray,
             range,
@@ -238,21 +231,6 @@ struct SentAnswer {
     ticket: u32,
 }
 
-impl March<'_> {
-    /// How often a range of t of that length is bisected.
-    fn depth(&self, length: f64) -> u32 {
-        let stop = match self.goal.stop {
-            Stop::Depth(depth) => depth,
-            Stop::Width(width) => (length / width).log2().ceil().clamp(0.0, 40.0) as u32,
-        };
-        let levels = match self.method.finish {
-            Finishing::Accept => 0,
-            Finishing::Certify => self.method.levels,
-        };
-        (stop + levels).min(MAX_DEPTH)
-    }
-}
-
 impl<'a> Traffic for March<'a> {
     type Ready = Marcher;
     type Sent = SentLine;
@@ -263,7 +241,8 @@ impl<'a> Traffic for March<'a> {
     fn ready(&self, ray: Ray) -> Result<Marcher, Hit> {
         let miss = self.method.miss();
         let clip = self.implicit.domain.clip(ray, self.goal.range).ok_or(miss)?;
-        let depth = |length| self.depth(length);
+        let [from, to] = clip.outer;
+        let depth = self.goal.depth(self.method, to - from, 1.0).min(MAX_DEPTH);
         Ok(Marcher::new(ray, clip.outer, &self.implicit.domain, depth, miss))
     }
 

@@ -23,7 +23,7 @@ pub trait Real:
     + Neg<Output = Self>
     + 'static
 {
-    /// One lane of this real, with the same rounding.
+    /// One lane of this real, with the same rounding; for a device's real, its constants.
     type Scalar: Scalar;
     /// Do the marks hold, so that a result may carry a proof?
     const OUTWARD: bool;

@@ -10,7 +10,7 @@ use super::form::{Form, Numbers};
 use super::march::{FIRST, MAX_DEPTH, March, Marcher, RawPairs, RawVectors, SetVectors};
 use super::method::{Algorithm, Bisection, Finishing, Packets, Stop};
 use super::monotone::Refining;
-use super::settler::Goal;
+use super::settler::{Goal, bisections};
 use crate::implicit::Implicit;
 use crate::{normals, tiles};
 
@@ -123,7 +123,7 @@ impl Prepared {
                         groups.len() - 1
                     });
                 }
-                let depth = self.depth(*line, axis, cut, range, goal.stop);
+                let depth = self.depth(*line, axis, cut, range, goal);
                 let ray = CLIPPED * block + i;
                 groups[last].1.push(Marcher { ray, line: *line, range, depth });
             }
@@ -133,7 +133,7 @@ impl Prepared {
 
     /// How often the pieces of a ray are bisected.
     #[inline(always)]
-    fn depth(&self, line: Ray, axis: Axis, cut: Cut, range: [f64; 2], stop: Stop) -> u32 {
+    fn depth(&self, line: Ray, axis: Axis, cut: Cut, range: [f64; 2], goal: &Goal) -> u32 {
         let bounds = &self.form.bounds;
         let speed = f64::from(line.direction[axis.k]).abs();
         // What is bisected, in q.
@@ -141,27 +141,15 @@ impl Prepared {
             Cut::Slabs(axis) => bounds.length(axis),
             Cut::Rays => (range[1] - range[0]) * speed,
         };
-        let least = first(stop);
-        let stop = match stop {
-            Stop::Depth(depth) => depth,
-            Stop::Width(width) => bisections(length, width * speed),
-        };
-        let levels = match self.method.finish {
-            Finishing::Accept => 0,
-            Finishing::Certify => self.method.levels,
-        };
+        let least = first(goal.stop);
+        let depth = goal.depth(&self.method, length, speed);
         // Pieces finer than the rounding of coordinates gain nothing.
         let finest = match cut {
             Cut::Slabs(axis) => bounds.finest(axis.k),
             Cut::Rays => bisections(length, bounds.resolution()),
         };
-        stop.saturating_add(levels).min(finest).min(MAX_DEPTH).max(least)
+        depth.min(finest).min(MAX_DEPTH).max(least)
     }
-}
-
-/// How often a length is halved until it is at most `width`.
-fn bisections(length: f64, width: f64) -> u32 {
-    (length / width).log2().ceil().clamp(0.0, f64::from(MAX_DEPTH)) as u32
 }
 
 /// The depth of the pieces with which marches start.

@@ -4,7 +4,7 @@ use zeroset_ia::Rounding;
 use zeroset_raycast::{Certificate, Domain, Hit, Ray, Request, Work};
 
 use super::finish::{self, Finding, Finish};
-use super::march::Reason;
+use super::march::{MAX_DEPTH, Reason};
 use super::method::{Bisection, Finishing, Stop};
 use crate::implicit::Implicit;
 
@@ -27,6 +27,27 @@ impl Goal {
         };
         Self { range, stop }
     }
+
+    /// How often a whole is bisected, `unit` long for 1 in t: to the stop, and for the certifying finish
+    /// some levels further.
+    #[inline(always)]
+    pub fn depth(&self, method: &Bisection, whole: f64, unit: f64) -> u32 {
+        let stop = match self.stop {
+            Stop::Depth(depth) => depth,
+            Stop::Width(width) => bisections(whole, width * unit),
+        };
+        let levels = match method.finish {
+            Finishing::Accept => 0,
+            Finishing::Certify => method.levels,
+        };
+        stop.saturating_add(levels)
+    }
+}
+
+/// How often a length is halved until it is at most `width`.
+#[inline(always)]
+pub(super) fn bisections(length: f64, width: f64) -> u32 {
+    (length / width).log2().ceil().clamp(0.0, f64::from(MAX_DEPTH)) as u32
 }
 
 impl Bisection {
