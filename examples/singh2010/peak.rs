@@ -1,13 +1,24 @@
-//! What a device can do at most: chains of multiplications and additions.
+//! How much of a device the march of the Chmutov surface of order 14 uses (Section 4.3), and where the
+//! rest goes: chains of multiplications and additions, values alone, and the march.
 
-use zeroset::gpu::device::{AsBinding, Binding};
-use zeroset::gpu::{Choice, Device};
+use std::time::Duration;
 
-use crate::Failure;
+use zeroset::cpu::Amp;
+use zeroset::cpu::amp::Adaptation;
+use zeroset::expr::Tape;
+use zeroset::gpu::device::{AsBinding, Binding, Buffer, Kernel};
+use zeroset::gpu::program::{Module, Numbers};
+use zeroset::gpu::{AmpGpu, Device, Frames, Look, Shadows};
+use zeroset::ia::Rounding;
+use zeroset::raycast::{Camera, Hits, Method, Progress, Rays, Request, View, Work};
+use zeroset::shade::shaded;
 
-/// Eight independent chains an invocation.
-const KERNEL: &str = "
-@group(0) @binding(0) var<storage, read_write> out: array<vec4f>;
+use crate::timing::Timing;
+use crate::{Failure, counts, row};
+
+/// What every kernel here begins with.
+const HEAD: &str = "
+@group(0) @binding(1) var<storage, read_write> out: array<f32>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
@@ -15,43 +26,194 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
     if i >= arrayLength(&out) {
         return;
     }
+";
+
+/// Eight independent chains an invocation: as `fma`, and as the device likes to combine the two.
+pub(crate) const CHAINS: [&str; 2] = ["fma(x, a, b)", "x * a + b"];
+const CHAIN_OPERATIONS: f64 = 2048.0 * 16.0;
+
+/// The kernel of one of the [`CHAINS`].
+pub(crate) fn chains(link: &str) -> String {
+    let links = format!("x = {link};\ny = {};\n", link.replace('x', "y")).repeat(16);
+    format!(
+        "
     let a = vec4f(1.0000001, 0.9999999, 1.0000002, 0.9999998);
     let b = vec4f(f32(i & 15u)) * 1e-7;
     var x = vec4f(f32(i));
     var y = x + 1.0;
-    for (var k = 0u; k < 2048u; k++) {
-        x = fma(x, a, b);
-        y = fma(y, a, b);
+    for (var k = 0u; k < 128u; k++) {{
+        {links}
+    }}
+    let sum = x + y;
+    out[i] = sum.x + sum.y + sum.z + sum.w;
+}}
+"
+    )
+}
+
+/// Values at points of a line, which differs from one invocation to the next.
+const VALUES: &str = "
+    let start = vec3f(f32(i & 255u), f32(i >> 8u & 255u), f32(i >> 16u)) / 256.0;
+    let direction = vec3f(0.577, 0.577, 0.578) + 0.01 * start;
+    var sum = 0.0;
+    for (var k = 0u; k < 256u; k++) {
+        let p = start + f32(k) * 0.004 * direction;
+        sum += value(p.x, p.y, p.z);
     }
-    out[i] = x + y;
+    out[i] = sum;
 }
 ";
-const STEPS: f64 = 2048.0;
-const INVOCATIONS: usize = 1 << 20;
+const VALUES_EACH: f64 = 256.0;
 
-/// Prints the rate of fused multiplications and additions, each counted as two operations.
-pub(crate) fn print() -> Result<(), Failure> {
-    let device = match Device::open(&Choice::Auto) {
-        Ok(device) => device,
-        Err(why) => {
-            println!("\nThe device's peak: {why}");
-            return Ok(());
+/// Invocations at first, and at most.
+const INVOCATIONS: [usize; 2] = [1 << 14, 1 << 22];
+/// A run that takes so long is long enough.
+const LONG: f64 = 0.02;
+
+/// A kernel that does nothing but compute.
+pub(crate) struct Load<'a> {
+    device: &'a Device,
+    kernel: Kernel,
+    constants: Buffer<[f32; 4]>,
+    out: Buffer<f32>,
+}
+
+impl<'a> Load<'a> {
+    pub(crate) fn new(
+        device: &'a Device,
+        module: &Module,
+        body: &str,
+        invocations: usize,
+    ) -> Result<Self, Failure> {
+        let source = module.shader(&format!("{HEAD}{body}"));
+        let kernel = device.kernel("load", &source, &[Binding::Uniform, Binding::Write])?;
+        let constants = device.uniform(module.constants().len())?;
+        device.write(&constants, &module.constants())?;
+        let out = device.storage::<f32>(invocations)?;
+        Ok(Self { device, kernel, constants, out })
+    }
+
+    /// Runs it once; the device's time.
+    pub(crate) fn run(&self) -> Result<Option<Duration>, Failure> {
+        let bound: [&dyn AsBinding; 2] = [&self.constants, &self.out];
+        Ok(self.device.run(&self.kernel, &bound, self.out.len())?)
+    }
+}
+
+/// The rate of a kernel with so many operations an invocation, a second.
+fn rate(
+    timing: &Timing<'_>,
+    device: &Device,
+    module: &Module,
+    body: &str,
+    operations: f64,
+) -> Result<f64, Failure> {
+    let [mut invocations, most] = INVOCATIONS;
+    loop {
+        let load = Load::new(device, module, body, invocations)?;
+        let least = timing.least(|| load.run())?.as_secs_f64();
+        if least > LONG || invocations == most {
+            return Ok(invocations as f64 * operations / least);
         }
-    };
-    let kernel = device.kernel("peak", KERNEL, &[Binding::Write])?;
-    let out = device.storage::<[f32; 4]>(INVOCATIONS)?;
-    let bound: [&dyn AsBinding; 1] = [&out];
-    let mut best = f64::INFINITY;
-    for _ in 0..4 {
-        if let Some(time) = device.run(&kernel, &bound, INVOCATIONS)? {
-            best = best.min(time.as_secs_f64());
+        invocations *= 4;
+    }
+}
+
+/// The part of a device's lanes that march while the slowest ray of a block of 8 by 4 pixels does.
+fn busy(hits: &Hits, [width, height]: [usize; 2]) -> f64 {
+    let (mut used, mut held) = (0, 0);
+    for top in (0..height).step_by(4) {
+        for left in (0..width).step_by(8) {
+            let rows = top..(top + 4).min(height);
+            let samples = rows.flat_map(|y| {
+                (left..(left + 8).min(width)).map(move |x| hits.work[y * width + x].points)
+            });
+            let samples: Vec<u64> = samples.collect();
+            used += samples.iter().sum::<u64>();
+            held += 32 * samples.iter().max().copied().unwrap_or_default();
         }
     }
-    let operations = INVOCATIONS as f64 * STEPS * 16.0;
+    used as f64 / held.max(1) as f64
+}
+
+/// Section 4.3: what a frame of the Chmutov surface of order 14 takes, and the share of the device's peak.
+pub(crate) fn section_4_3(
+    timing: &Timing<'_>,
+    device: &Device,
+    size: usize,
+) -> Result<(), Failure> {
+    println!("\n## Section 4.3, {size}x{size}, on the device\n");
+    let scene = row(1, 4)?;
+    let tape: Tape = counts::tape(&scene)?;
+    // With the operations that make the point.
+    let [value, slope] =
+        [&tape, &tape.slope()].map(|tape| f64::from(counts::operations(tape)[0] + 6));
     println!(
-        "\nThe peak of {} by chains of `fma` in single precision: {:.1} GFLOP/s.",
-        device.report().name,
-        operations / best / 1e9
+        "{}: {value} operations a value with the 6 that make the point (the paper: over 75), {slope} a \
+         slope. The paper: 70 values a ray, 1.38e9 operations a frame of 512x512, 65 % of the card's \
+         peak. The peak is what chains of multiplications and additions reach.\n",
+        scene.id
     );
+    let plain = Module::new(Rounding::Nearest);
+    let mut values = plain.clone();
+    values.function("value", &tape, Numbers::Plain)?;
+    let mut peak = 0.0_f64;
+    for link in CHAINS {
+        peak = peak.max(rate(timing, device, &plain, &chains(link), CHAIN_OPERATIONS)?);
+    }
+    let alone = rate(timing, device, &values, VALUES, VALUES_EACH * value)?;
+    println!(
+        "Lanes: the part of them that march while the slowest of a block of 8 by 4 pixels does.\n"
+    );
+    println!("| what | values a ray | operations a frame | ms | GFLOP/s | of the peak | lanes |");
+    println!("|{}", "---|".repeat(7));
+    let line = |what: &str, cells: &str, rate: f64, lanes: &str| {
+        println!(
+            "| {what} | {cells} | {:.1} | {:.0} % | {lanes} |",
+            rate / 1e9,
+            100.0 * rate / peak
+        );
+    };
+    line("multiplications and additions, chained", "| |", peak, "");
+    line("values on lines, every invocation 256 of them", "| |", alone, "");
+    let view = View::new(Camera::facing(&scene.domain), size, size);
+    let mut hits = Hits::new(Request::First, size * size);
+    for (name, adaptation) in [("", Adaptation::On), (", no adaptation", Adaptation::Off)] {
+        let method = AmpGpu::auto(Amp {
+            distance_adaptation: adaptation,
+            silhouette_adaptation: adaptation,
+            ..Amp::default()
+        });
+        let intersector = method.prepare(&scene)?;
+        let mut work = Work::default();
+        let least = timing.least(|| {
+            let report = intersector.intersect(Rays::View(&view), &mut hits, &Progress::new())?;
+            work = report.work;
+            Ok(report.device_time)
+        })?;
+        let mut frames = Frames::new(&method, &scene)?;
+        let background = shaded::background(size);
+        let resident =
+            timing.least(|| Ok(frames.draw(&view, &unlit(&background), &Progress::new())?))?;
+        let operations = work.points as f64 * value + work.gradients as f64 * slope;
+        for (what, time) in
+            [("`amp-sign-gpu`", least), ("the same, a frame that stays there", resident)]
+        {
+            let seconds = time.as_secs_f64();
+            let cells = format!(
+                "{:.1} | {operations:.3e} | {:.3}",
+                work.points as f64 / (size * size) as f64,
+                1e3 * seconds
+            );
+            let lanes = format!("{:.0} %", 100.0 * busy(&hits, [size, size]));
+            line(&format!("{what}{name}"), &cells, operations / seconds, &lanes);
+        }
+    }
     Ok(())
+}
+
+/// White under no light.
+fn unlit(background: &[[u8; 3]]) -> Look<'_> {
+    let white = glam::Vec3::ONE;
+    Look { lights: &[], shadows: Shadows::Off, front: white, back: white, background }
 }

@@ -1,6 +1,6 @@
 //! Tables 1 to 3.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use zeroset::bench::{Sample, Tolerance, Truths, Verdict, judge, truth};
 use zeroset::cpu::amp::RootTest;
@@ -13,10 +13,8 @@ use zeroset::raycast::{
 use zeroset::shade::{Light, ShadowRays, shaded};
 
 use crate::published::{TABLE_1, TABLE_2, TABLE_3};
+use crate::timing::Timing;
 use crate::{Failure, counts, row};
-
-/// How often each frame is taken; the least time counts.
-const ROUNDS: usize = 3;
 
 /// One light, above and to the left of the eye.
 fn light(view: &View) -> Light {
@@ -30,16 +28,19 @@ struct Cast {
     hits: Hits,
 }
 
-fn cast(intersector: &dyn Intersector, rays: Rays<'_>, request: Request) -> Result<Cast, Failure> {
+fn cast(
+    timing: &Timing<'_>,
+    intersector: &dyn Intersector,
+    rays: Rays<'_>,
+    request: Request,
+) -> Result<Cast, Failure> {
     let mut hits = Hits::new(request, rays.len());
-    let mut time = Duration::MAX;
     let mut work = Work::default();
-    for _ in 0..ROUNDS {
-        let start = Instant::now();
+    let time = timing.least(|| {
         let report = intersector.intersect(rays, &mut hits, &Progress::new())?;
-        time = time.min(report.device_time.unwrap_or_else(|| start.elapsed()));
         work = report.work;
-    }
+        Ok(report.device_time)
+    })?;
     Ok(Cast { time, work, hits })
 }
 
@@ -51,7 +52,7 @@ struct Frame {
 
 fn frame(method: &dyn Method, scene: &Scene, view: &View) -> Result<Frame, Failure> {
     let intersector = method.prepare(scene)?;
-    let first = cast(&*intersector, Rays::View(view), Request::First)?;
+    let first = cast(&Timing::HERE, &*intersector, Rays::View(view), Request::First)?;
     // Normals are for the shadow rays; they are not timed.
     let mut hits = Hits::new(Request::FirstWithNormal, first.hits.len());
     intersector.intersect(Rays::View(view), &mut hits, &Progress::new())?;
@@ -60,7 +61,7 @@ fn frame(method: &dyn Method, scene: &Scene, view: &View) -> Result<Frame, Failu
     let shadows = if batch.rays.is_empty() {
         Duration::ZERO
     } else {
-        cast(&*intersector, Rays::Batch(batch), Request::Any)?.time
+        cast(&Timing::HERE, &*intersector, Rays::Batch(batch), Request::Any)?.time
     };
     Ok(Frame { cast: first, shadows })
 }
@@ -84,13 +85,6 @@ fn wrong(methods: &[Amp; 2], scene: &Scene, side: usize) -> Result<Vec<String>, 
 
 fn ms(time: Duration) -> f64 {
     1e3 * time.as_secs_f64()
-}
-
-/// The twins of a test: on the CPU and, if there is a device, on it.
-fn twins(test: RootTest) -> [Box<dyn Method>; 2] {
-    let amp = Amp { test, ..Amp::default() };
-    let device = AmpGpu::new(test);
-    [Box::new(amp), Box::new(device)]
 }
 
 /// Table 1: both tests, with and without shadows, on the CPU; and what is lost.
@@ -141,7 +135,7 @@ pub(crate) fn table_1(size: usize) -> Result<(), Failure> {
 }
 
 /// Table 1 on the device: whole frames that stay there, by its clock.
-pub(crate) fn table_1_device(size: usize) -> Result<(), Failure> {
+pub(crate) fn table_1_device(timing: &Timing<'_>, size: usize) -> Result<(), Failure> {
     println!("\n## Table 1, {size}x{size}, on the device\n");
     println!(
         "Frames a second of frames that stay on the device, by its clock; without and with shadows of one \
@@ -169,12 +163,7 @@ pub(crate) fn table_1_device(size: usize) -> Result<(), Failure> {
                     back: palette.back,
                     background: &background,
                 };
-                let mut time = Duration::MAX;
-                for _ in 0..=ROUNDS {
-                    let start = Instant::now();
-                    let clock = frames.draw(&view, &look, &Progress::new())?;
-                    time = time.min(clock.unwrap_or_else(|| start.elapsed()));
-                }
+                let time = timing.least(|| Ok(frames.draw(&view, &look, &Progress::new())?))?;
                 rates.push(1e3 / ms(time));
             }
         }
@@ -198,7 +187,7 @@ pub(crate) fn table_1_device(size: usize) -> Result<(), Failure> {
 }
 
 /// Table 2: the sign test over an interval method, on the device.
-pub(crate) fn table_2(size: usize) -> Result<(), Failure> {
+pub(crate) fn table_2(timing: &Timing<'_>, size: usize) -> Result<(), Failure> {
     println!("\n## Table 2, {size}x{size}, on the device\n");
     println!(
         "Bisection along the ray with intervals rounded to nearest, to depth 10, every last piece a hit; \
@@ -222,7 +211,7 @@ pub(crate) fn table_2(size: usize) -> Result<(), Failure> {
         };
         let on = |method: &dyn Method| {
             let intersector = method.prepare(&scene)?;
-            cast(&*intersector, Rays::View(&view), Request::First)
+            cast(timing, &*intersector, Rays::View(&view), Request::First)
         };
         let nearest = on(&bisection(Rounding::Nearest))?;
         let outward = on(&bisection(Rounding::Outward))?;
@@ -253,14 +242,10 @@ pub(crate) fn table_3(size: usize) -> Result<(), Failure> {
     println!("|{}", "---|".repeat(6));
     let mut first = None;
     for (i, [cpu, _]) in TABLE_3.iter().enumerate() {
-        let scene = row(3, i + 1)?;
+        let (scene, single) = single(i, size)?;
         let view = View::new(Camera::facing(&scene.domain), size, size);
         let intersector = Amp::default().prepare(&scene)?;
-        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-        let timed =
-            || cast(&*intersector, Rays::View(&view), Request::First).map_err(|e| e.to_string());
-        let single = ms(one.install(timed)?.time);
-        let all = ms(timed()?.time);
+        let all = ms(cast(&Timing::HERE, &*intersector, Rays::View(&view), Request::First)?.time);
         let base = *first.get_or_insert(single);
         println!(
             "| {} | {cpu} | {single:.2} | {all:.2} | {:.2} | {:.2} |",
@@ -272,36 +257,36 @@ pub(crate) fn table_3(size: usize) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Are twins there, and what does each need for the Chmutov surface of order 14 (Section 4.3)?
-pub(crate) fn section_4_3(size: usize) -> Result<(), Failure> {
-    println!("\n## Section 4.3, {size}x{size}\n");
-    let scene = row(1, 4)?;
+/// The surface of a row of Table 3, counted from 0, and milliseconds of the sign test in one thread.
+fn single(row_index: usize, size: usize) -> Result<(Scene, f64), Failure> {
+    let scene = row(3, row_index + 1)?;
     let view = View::new(Camera::facing(&scene.domain), size, size);
-    let [flops, _] = counts::operations(&counts::tape(&scene)?);
-    let flops = f64::from(flops + 6);
-    println!(
-        "{}: {flops} operations a value with the 6 that make the point (the paper: over 75).\n",
-        scene.id
-    );
-    println!(
-        "| method | values a ray (paper 70) | operations a frame (paper 1.38e9) | ms | GFLOP/s |"
-    );
-    println!("|---|---|---|---|---|");
-    for method in twins(RootTest::Sign) {
-        if let Err(why) = method.supports(&scene) {
-            println!("| {} | {why} | | | |", method.id());
-            continue;
-        }
-        let done = cast(&*method.prepare(&scene)?, Rays::View(&view), Request::First)?;
-        let points = done.work.points as f64;
+    let intersector = Amp::default().prepare(&scene)?;
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let timed = || {
+        let rays = Rays::View(&view);
+        cast(&Timing::HERE, &*intersector, rays, Request::First).map_err(|e| e.to_string())
+    };
+    let time = ms(one.install(timed)?.time);
+    Ok((scene, time))
+}
+
+/// Table 3: the sign test on one thread of the CPU against that on the device.
+pub(crate) fn table_3_device(timing: &Timing<'_>, size: usize) -> Result<(), Failure> {
+    println!("\n## Table 3, {size}x{size}, on the device\n");
+    println!("| surface | one CPU thread ms | device ms | CPU over device, paper | measured |");
+    println!("|{}", "---|".repeat(5));
+    for (i, [cpu, gpu]) in TABLE_3.iter().enumerate() {
+        let (scene, single) = single(i, size)?;
+        let view = View::new(Camera::facing(&scene.domain), size, size);
+        let intersector = AmpGpu::default().prepare(&scene)?;
+        let device = ms(cast(timing, &*intersector, Rays::View(&view), Request::First)?.time);
         println!(
-            "| {} | {:.1} | {:.3e} | {:.3} | {:.1} |",
-            method.id(),
-            points / (size * size) as f64,
-            points * flops,
-            ms(done.time),
-            points * flops / done.time.as_secs_f64() / 1e9
+            "| {} | {single:.2} | {device:.3} | {:.1} | {:.1} |",
+            scene.id,
+            cpu / gpu,
+            single / device
         );
     }
-    crate::peak::print()
+    Ok(())
 }

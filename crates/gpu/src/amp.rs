@@ -41,17 +41,30 @@ pub(crate) fn module(tape: &Tape) -> Result<Module, Unsupported> {
     Ok(module)
 }
 
+/// What the compiler is told of the march besides, so that it leaves out what is not done.
+pub(crate) fn known(amp: &Amp) -> String {
+    format!(
+        "const TAYLOR = {};\nconst DISTANCE_ADAPTATION = {};\nconst SILHOUETTE_ADAPTATION = {};\n",
+        amp.test == RootTest::Taylor,
+        amp.distance_adaptation == Adaptation::On,
+        amp.silhouette_adaptation == Adaptation::On,
+    )
+}
+
 /// The whole shader of a function, as it is compiled for a device.
 ///
 /// # Errors
 /// If an operation has no form on devices.
-pub fn shader(tape: &Tape) -> Result<String, Unsupported> {
-    Ok(module(tape)?.shader(KERNEL))
+pub fn shader(amp: &Amp, tape: &Tape) -> Result<String, Unsupported> {
+    Ok(module(tape)?.shader(&amp.kernel()))
 }
 
 impl Twin for Amp {
     type Plan = Settings;
-    const KERNEL: &'static str = KERNEL;
+
+    fn kernel(&self) -> String {
+        known(self) + KERNEL
+    }
 
     fn names(&self) -> [&'static str; 2] {
         match self.test {
@@ -116,15 +129,12 @@ pub(crate) struct SentMarch {
     tau3: f32,
     epsilon: f32,
     bisections: u32,
-    distance_adaptation: u32,
-    silhouette_adaptation: u32,
-    test: u32,
     samples: u32,
-    unused: [u32; 2],
+    unused: u32,
 }
 
 impl SentMarch {
-    pub(crate) fn new(test: RootTest, settings: &Settings) -> Self {
+    pub(crate) fn new(settings: &Settings) -> Self {
         let Settings { step, tau1, tau2, tau3, epsilon, .. } = *settings;
         let [step, tau1, tau2, tau3, epsilon] = [step, tau1, tau2, tau3, epsilon].map(|x| x as f32);
         Self {
@@ -134,15 +144,9 @@ impl SentMarch {
             tau3,
             epsilon,
             bisections: settings.bisections,
-            distance_adaptation: (settings.distance_adaptation == Adaptation::On).into(),
-            silhouette_adaptation: (settings.silhouette_adaptation == Adaptation::On).into(),
-            test: match test {
-                RootTest::Sign => 0,
-                RootTest::Taylor => 1,
-            },
             // Ended by the conversion where they are more than can be counted.
             samples: settings.samples as u32,
-            unused: [0; 2],
+            unused: 0,
         }
     }
 }
@@ -206,7 +210,7 @@ impl<'a> Traffic for March<'a> {
     }
 
     fn settings(&self, rays: u32) -> SentSettings {
-        SentSettings { march: SentMarch::new(self.amp.test, &self.settings), rays, unused: [0; 3] }
+        SentSettings { march: SentMarch::new(&self.settings), rays, unused: [0; 3] }
     }
 
     fn reader(&self) -> Option<Certifier<'a>> {

@@ -48,7 +48,10 @@ pub fn shader(tape: &Tape, rounding: Rounding) -> Result<String, Unsupported> {
 
 impl Twin for Bisection {
     type Plan = ();
-    const KERNEL: &'static str = KERNEL;
+
+    fn kernel(&self) -> String {
+        KERNEL.into()
+    }
 
     fn names(&self) -> [&'static str; 2] {
         ["tbisect-gpu", "tbisect on the GPU [knoll2007]"]

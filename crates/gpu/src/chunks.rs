@@ -112,7 +112,9 @@ pub(crate) fn cast<T: Traffic>(
             // Between the rounds too, the work can be asked to stop.
             progress.advance(0)?;
         }
-        if start.elapsed() < CHUNK_TIME / 2 {
+        if start.elapsed() < CHUNK_TIME / 16 {
+            size = (8 * size).min(MOST);
+        } else if start.elapsed() < CHUNK_TIME / 2 {
             size = (2 * size).min(MOST);
         } else if start.elapsed() > CHUNK_TIME {
             size = (size / 2).max(1);

@@ -13,24 +13,26 @@ pub(crate) struct Compiled {
     pub device: Arc<Device>,
     pub kernel: Kernel,
     pub constants: Buffer<[f32; 4]>,
+    /// What calls the functions.
+    caller: String,
     source: String,
 }
 
 impl Compiled {
     /// Compiles the functions and the kernel that calls them.
-    pub(crate) fn new(choice: &Choice, module: &Module, kernel: &str) -> Result<Self, Error> {
-        let source = module.shader(kernel);
+    pub(crate) fn new(choice: &Choice, module: &Module, caller: String) -> Result<Self, Error> {
+        let source = module.shader(&caller);
         let device = Device::open(choice)?;
         let bindings = [module.binding(), Binding::Uniform, Binding::Read, Binding::Write];
         let kernel = device.kernel("rays", &source, &bindings)?;
         let constants = constants(&device, module)?;
-        Ok(Self { choice: choice.clone(), device, kernel, constants, source })
+        Ok(Self { choice: choice.clone(), device, kernel, constants, caller, source })
     }
 
     /// The same for other constants, if the functions are the same; else all anew.
-    pub(crate) fn update(&mut self, module: &Module, kernel: &str) -> Result<(), Error> {
-        if self.device.is_lost() || module.shader(kernel) != self.source {
-            *self = Self::new(&self.choice, module, kernel)?;
+    pub(crate) fn update(&mut self, module: &Module) -> Result<(), Error> {
+        if self.device.is_lost() || module.shader(&self.caller) != self.source {
+            *self = Self::new(&self.choice, module, self.caller.clone())?;
         } else {
             let written = self.device.write(&self.constants, &module.constants());
             if written.is_err() {

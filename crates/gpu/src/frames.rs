@@ -6,11 +6,11 @@ use std::time::Duration;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use zeroset_cpu::Implicit;
-use zeroset_cpu::amp::Settings;
+use zeroset_cpu::amp::{Amp, Settings};
 use zeroset_expr::{Parameters, Tape};
 use zeroset_raycast::{Camera, Error, Method, Progress, Projection, Scene, Unsupported, View};
 
-use crate::amp::{AmpGpu, SentMarch, module};
+use crate::amp::{AmpGpu, SentMarch, known, module};
 use crate::compiled::Compiled;
 use crate::device::{AsBinding, Buffer, Device, DeviceError};
 
@@ -18,8 +18,12 @@ use crate::device::{AsBinding, Buffer, Device, DeviceError};
 ///
 /// # Errors
 /// If an operation has no form on devices.
-pub fn shader(tape: &Tape) -> Result<String, Unsupported> {
-    Ok(module(tape)?.shader(KERNEL))
+pub fn shader(amp: &Amp, tape: &Tape) -> Result<String, Unsupported> {
+    Ok(module(tape)?.shader(&kernel(amp)))
+}
+
+fn kernel(amp: &Amp) -> String {
+    known(amp) + KERNEL
 }
 
 const KERNEL: &str =
@@ -116,7 +120,8 @@ impl Frames {
         let implicit = Implicit::new(method.id(), scene)?;
         let published_step = scene.published_step;
         let settings = Settings::new(&method.twin, &implicit, published_step)?;
-        let compiled = Compiled::new(&method.device, &module(&implicit.tape)?, KERNEL)?;
+        let compiled =
+            Compiled::new(&method.device, &module(&implicit.tape)?, kernel(&method.twin))?;
         let method = method.clone();
         let mut frames =
             Self { method, implicit, published_step, settings, compiled, canvas: None };
@@ -142,7 +147,7 @@ impl Frames {
         let mut implicit = self.implicit.clone();
         implicit.set_parameters(values)?;
         let settings = Settings::new(&self.method.twin, &implicit, self.published_step)?;
-        self.compiled.update(&module(&implicit.tape)?, KERNEL)?;
+        self.compiled.update(&module(&implicit.tape)?)?;
         (self.settings, self.implicit) = (settings, implicit);
         Ok(())
     }
@@ -167,7 +172,7 @@ impl Frames {
             return Err(Error::Device(format!("{count} lights; a frame takes {MOST_LIGHTS}")));
         }
         if self.compiled.is_stale() {
-            self.compiled.update(&module(&self.implicit.tape)?, KERNEL)?;
+            self.compiled.update(&module(&self.implicit.tape)?)?;
         }
         let device = Arc::clone(&self.compiled.device);
         let size = [view.width, view.height];
@@ -258,7 +263,7 @@ impl Frames {
             *sent = with(direction.as_dvec3(), (*strength).into());
         }
         SentSettings {
-            march: SentMarch::new(self.method.twin.test, &self.settings),
+            march: SentMarch::new(&self.settings),
             eye: with(view.camera.eye, perspective),
             forward: with(forward, 0.0),
             right: with(extent * right, view.footprint(1.0)),

@@ -29,6 +29,11 @@ impl<T> OnDevice<T> {
     pub fn auto(twin: T) -> Self {
         Self { twin, device: Choice::Auto }
     }
+
+    /// Is there such a device?
+    fn find_device(&self) -> Result<(), Unsupported> {
+        Device::open(&self.device).map(|_| ()).map_err(|why| Unsupported(why.to_string()))
+    }
 }
 
 /// A method of the CPU that can run on a device.
@@ -36,7 +41,7 @@ pub(crate) trait Twin: Method + Clone + 'static {
     /// What follows from the scene besides the shader.
     type Plan: Send + Sync;
     /// The shader but for its functions.
-    const KERNEL: &'static str;
+    fn kernel(&self) -> String;
     /// Id and summary on a device.
     fn names(&self) -> [&'static str; 2];
     /// The shader's functions.
@@ -75,14 +80,15 @@ impl<T: Twin> Method for OnDevice<T> {
                 return Err(why);
             }
         }
-        Device::open(&self.device).map(|_| ()).map_err(|why| Unsupported(why.to_string()))
+        self.find_device()
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Intersector>, Error> {
         let implicit = Implicit::new(self.id(), scene)?;
         let plan = self.twin.plan(&implicit, scene.published_step)?;
         let module = self.twin.module(&implicit.tape)?;
-        let compiled = Mutex::new(Compiled::new(&self.device, &module, T::KERNEL)?);
+        self.find_device()?;
+        let compiled = Mutex::new(Compiled::new(&self.device, &module, self.twin.kernel())?);
         let twin = self.twin.clone();
         let published_step = scene.published_step;
         let prepared = Prepared { twin, implicit, published_step, plan, compiled };
@@ -149,7 +155,7 @@ impl<T: Twin> Intersector for Prepared<T> {
         implicit.set_parameters(values)?;
         let plan = self.twin.plan(&implicit, self.published_step)?;
         let compiled = self.compiled.get_mut().unwrap_or_else(PoisonError::into_inner);
-        compiled.update(&self.twin.module(&implicit.tape)?, T::KERNEL)?;
+        compiled.update(&self.twin.module(&implicit.tape)?)?;
         (self.plan, self.implicit) = (plan, implicit);
         Ok(())
     }
@@ -163,7 +169,7 @@ impl<T: Twin> Intersector for Prepared<T> {
         let Self { twin, implicit, plan, .. } = self;
         let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
         if compiled.is_stale() {
-            compiled.update(&twin.module(&implicit.tape)?, T::KERNEL)?;
+            compiled.update(&twin.module(&implicit.tape)?)?;
         }
         let job = Job {
             device: &compiled.device,

@@ -41,6 +41,15 @@ fn unknown_devices_are_named() {
 }
 
 #[test]
+fn without_a_device_no_scene_is_supported() {
+    // As on a machine that has none.
+    let method = AmpGpu { device: Choice::Named("no such device".into()), ..AmpGpu::default() };
+    let scene = scene("x^2+y^2+z^2=1");
+    let why = method.supports(&scene).unwrap_err();
+    assert!(matches!(method.prepare(&scene), Err(Error::Unsupported(same)) if same == why));
+}
+
+#[test]
 fn a_lost_device_is_an_error_and_then_opened_anew() {
     if adapter::device().is_none() {
         return;

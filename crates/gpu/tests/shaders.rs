@@ -1,7 +1,9 @@
 //! Every shader is valid, whatever the surface: no device is needed to see it.
 
 use wgpu::naga;
+use zeroset_cpu::{Amp, RootTest};
 use zeroset_expr::{Parameters, Tape};
+use zeroset_gpu::{amp, bisection, frames};
 use zeroset_ia::Rounding;
 use zeroset_raycast::Geometry;
 use zeroset_raycast::catalogue::Catalogue;
@@ -47,8 +49,12 @@ fn every_operation() -> Vec<(String, Tape)> {
 #[test]
 fn shaders_of_points_are_valid() {
     for (name, tape) in tapes().into_iter().chain(every_operation()) {
-        for source in [zeroset_gpu::amp::shader(&tape), zeroset_gpu::frames::shader(&tape)] {
-            validate(&source.unwrap()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        for test in [RootTest::Sign, RootTest::Taylor] {
+            let amp = Amp { test, ..Amp::default() };
+            let [rays, frames] = [amp::shader(&amp, &tape), frames::shader(&amp, &tape)];
+            for source in [rays, frames] {
+                validate(&source.unwrap()).unwrap_or_else(|e| panic!("{name}: {e}"));
+            }
         }
     }
 }
@@ -58,7 +64,7 @@ fn shaders_of_intervals_are_valid_or_say_what_is_missing() {
     let mut missing = Vec::new();
     for (name, tape) in tapes().into_iter().chain(every_operation()) {
         for rounding in [Rounding::Outward, Rounding::Nearest] {
-            match zeroset_gpu::bisection::shader(&tape, rounding) {
+            match bisection::shader(&tape, rounding) {
                 Ok(source) => validate(&source).unwrap_or_else(|e| panic!("{name}: {e}")),
                 Err(error) => {
                     let text = error.to_string();

@@ -2,10 +2,12 @@
 
 mod adapter;
 
-use zeroset_cpu::{Amp, Bisection, RootTest};
+use zeroset_cpu::{Amp, Bisection, Implicit, RootTest};
+use zeroset_expr::Evaluator;
 use zeroset_gpu::{AmpGpu, BisectionGpu};
+use zeroset_ia::{Interval, Plain};
 use zeroset_raycast::catalogue::Catalogue;
-use zeroset_raycast::{Camera, Hits, Method, Progress, Rays, Request, Scene, View};
+use zeroset_raycast::{Camera, Hits, Method, Progress, Ray, Rays, Request, Scene, View};
 
 const SIZE: usize = 128;
 
@@ -45,10 +47,31 @@ fn taylor_tests_hit_where_their_twins_do() {
     marches_agree(RootTest::Taylor);
 }
 
-fn marches_agree(test: RootTest) {
-    if adapter::device().is_none() {
-        return;
+/// What single precision leaves open about where a root is: devices may contract and round otherwise.
+struct Blur<'a> {
+    value: Evaluator<'a, Interval<f32>>,
+    slope: Evaluator<'a, Plain<f64>>,
+}
+
+impl Blur<'_> {
+    /// The width of the value's enclosure in single precision at a point of the ray, over the slope there.
+    fn at(&mut self, ray: Ray, t: f64) -> f64 {
+        let p = ray.at(t);
+        let point = p.to_array().map(|x| Interval::<f32>::point(x as f32));
+        let value = self.value.evaluate(point);
+        let direction = ray.direction.as_dvec3();
+        let [x, y, z] = p.to_array().map(Plain);
+        let [dx, dy, dz] = direction.to_array().map(Plain);
+        [x, y, z, dx, dy, dz].into_iter().enumerate().for_each(|(i, x)| self.slope.bind(i, x));
+        let slope = self.slope.run(|_| {}).0;
+        f64::from(value.hi - value.lo) / slope.abs()
     }
+}
+
+fn marches_agree(test: RootTest) {
+    let Some(device) = adapter::device() else { return };
+    // Devices in software compute as the CPU does.
+    let is_exact = device.report().kind == "software";
     let mut report = Vec::new();
     for surface in Catalogue::builtin().functions() {
         let scene = surface.scene().unwrap();
@@ -60,27 +83,41 @@ fn marches_agree(test: RootTest) {
         let expected = cast(&twin, &scene, &view);
         let actual = cast(&AmpGpu::new(test), &scene, &view);
         let jump = 0.02 * scene.domain.radius();
+        let implicit = Implicit::new(twin.id(), &scene).unwrap();
+        let slope = implicit.tape.slope();
+        let mut blur = Blur {
+            value: implicit.tape.evaluator(&Interval::point(0.0)),
+            slope: slope.evaluator(&Plain(0.0)),
+        };
         let (mut other, mut far) = (0, 0);
         for i in 0..expected.len() {
             let (a, b) = (expected.get(i), actual.get(i));
-            if a.certificate.is_hit() != b.certificate.is_hit() {
+            let hits = [a, b].into_iter().filter(|hit| hit.certificate.is_hit());
+            let ray = view.ray(i % SIZE, i / SIZE);
+            let (mut width, mut blurred) = (0.0_f64, 0.0_f64);
+            for hit in hits.clone() {
+                width = width.max(hit.bracket[1] - hit.bracket[0]);
+                if !is_exact {
+                    blurred = blurred.max(blur.at(ray, hit.t()));
+                }
+            }
+            let apart = match hits.count() {
+                0 => 0.0,
+                // One root more or less: as if it were another sheet.
+                1 => jump,
+                _ => (a.t() - b.t()).abs(),
+            };
+            if apart > 2.0 * width + 1e-5 * scene.domain.radius() + blurred {
                 other += 1;
                 far += usize::from(!is_at_silhouette(&expected, i, jump));
-            } else if a.certificate.is_hit() {
-                let width = (a.bracket[1] - a.bracket[0]).max(b.bracket[1] - b.bracket[0]);
-                let apart = (a.t() - b.t()).abs();
-                if apart > 2.0 * width + 1e-5 * scene.domain.radius() {
-                    // Another sheet: at a silhouette, too.
-                    other += 1;
-                    far += usize::from(!is_at_silhouette(&expected, i, jump));
-                }
             }
         }
         if other > 0 {
             report.push((scene.id.clone(), other, far));
         }
     }
-    let limit = SIZE * SIZE / 1000;
+    // Whether a step that all but touches holds a root may hang on a rounding.
+    let limit = SIZE * SIZE / if is_exact { 1000 } else { 100 };
     let bad: Vec<_> = report.iter().filter(|(_, other, far)| *other > limit || *far > 0).collect();
     eprintln!("pixels that differ, and those not at a silhouette: {report:?}");
     assert!(bad.is_empty(), "{bad:?}");

@@ -126,7 +126,7 @@ fn shade(direction: vec3f, p: vec3f, width: f32, distance: f32) -> u32 {
             if settings.shadows == 1u {
                 // Whether there is a root is enough: no bisections (Section 4.2), but those that refute.
                 let segment = segment_of(p + offset * normal, source.xyz);
-                let bisections = settings.march.bisections * settings.march.test;
+                let bisections = select(0u, settings.march.bisections, TAYLOR);
                 reaches = !(segment.length > 0.0 && march(segment, bisections).found == 1u);
             }
             light += select(0.0, source.w * facing, reaches);

@@ -1,5 +1,7 @@
 // Adaptive marching points [singh2010], Algorithm 1 and Eq. 2: the same march as that of zeroset_cpu::Amp,
-// which is its twin. Who includes this has a uniform `settings` with a member `march`.
+// which is its twin. Who includes this has a uniform `settings` with a member `march`, and says what the
+// compiler had better know: the constants TAYLOR (else the sign test), DISTANCE_ADAPTATION and
+// SILHOUETTE_ADAPTATION.
 
 struct March {
     step: f32,
@@ -8,15 +10,9 @@ struct March {
     tau3: f32,
     epsilon: f32,
     bisections: u32,
-    // 1 for on.
-    distance_adaptation: u32,
-    silhouette_adaptation: u32,
-    // 0 for the sign test, 1 for the Taylor test.
-    test: u32,
     // A march that has taken more samples refutes no bracket.
     samples: u32,
-    unused0: u32,
-    unused1: u32,
+    unused: u32,
 }
 
 // The part of a ray in the domain; s counts length from its start.
@@ -60,7 +56,7 @@ fn sample_at(segment: Segment, s: f32, answer: ptr<function, Answer>) -> Sample 
     sample.s = s;
     sample.value = value(p.x, p.y, p.z) - settings.march.epsilon;
     sample.finite = is_finite(sample.value);
-    if settings.march.test == 1u {
+    if TAYLOR {
         sample.slope = slope_at(segment, s);
         (*answer).gradients += 1u;
     } else {
@@ -75,7 +71,7 @@ fn isolates(a: Sample, b: Sample) -> bool {
     if !(a.finite && b.finite) {
         return false;
     }
-    if settings.march.test == 0u {
+    if !TAYLOR {
         return (a.value < 0.0 && b.value > 0.0) || (a.value > 0.0 && b.value < 0.0);
     }
     // Eq. 3. What is no number is on neither side of 0.
@@ -87,6 +83,34 @@ fn isolates(a: Sample, b: Sample) -> bool {
     return least && greatest;
 }
 
+// Where the next sample is: at the one before if there is none.
+fn next(segment: Segment, before: Sample, answer: ptr<function, Answer>) -> f32 {
+    if before.s >= segment.length {
+        return before.s;
+    }
+    let size = abs(before.value);
+    let near = size <= settings.march.tau1;
+    var step = settings.march.step;
+    if DISTANCE_ADAPTATION {
+        if near {
+            step *= 0.5;
+        } else if size > settings.march.tau2 {
+            step *= 2.0;
+        }
+    }
+    if SILHOUETTE_ADAPTATION && near {
+        var along = before.slope;
+        if !TAYLOR {
+            along = slope_at(segment, before.s);
+            (*answer).gradients += 1u;
+        }
+        if abs(along) <= settings.march.tau3 {
+            step *= 0.5;
+        }
+    }
+    return min(before.s + step, segment.length);
+}
+
 // Marches along a segment, and narrows the first step that holds a root so often.
 fn march(segment: Segment, bisections: u32) -> Answer {
     var answer: Answer;
@@ -94,46 +118,41 @@ fn march(segment: Segment, bisections: u32) -> Answer {
     before.finite = false;
     var s = 0.0;
     loop {
-        let sample = sample_at(segment, s, &answer);
-        if sample.finite && sample.value == 0.0 {
-            answer.found = 1u;
-            answer.bracket = vec2f(s, s);
+        // To a step that may hold a root. It is narrowed only then, so that rays side by side do so
+        // together: else all would wait for each.
+        var sample: Sample;
+        var isolated = false;
+        loop {
+            sample = sample_at(segment, s, &answer);
+            if sample.finite && sample.value == 0.0 {
+                answer.found = 1u;
+                answer.bracket = vec2f(s, s);
+                break;
+            }
+            isolated = isolates(before, sample);
+            if isolated {
+                break;
+            }
+            before = sample;
+            s = next(segment, before, &answer);
+            // A step that is none would never end.
+            if s <= before.s {
+                break;
+            }
+        }
+        if !isolated {
             break;
         }
         var from_ = before;
         var to_ = sample;
-        if isolates(before, sample) && narrow(segment, &from_, &to_, bisections, &answer) {
+        if narrow(segment, &from_, &to_, bisections, &answer) {
             answer.found = 1u;
             answer.bracket = vec2f(from_.s, to_.s);
             break;
         }
         // A bracket that is refuted is passed.
         before = to_;
-        if before.s >= segment.length {
-            break;
-        }
-        let size = abs(before.value);
-        let near = size <= settings.march.tau1;
-        var step = settings.march.step;
-        if settings.march.distance_adaptation == 1u {
-            if near {
-                step *= 0.5;
-            } else if size > settings.march.tau2 {
-                step *= 2.0;
-            }
-        }
-        if settings.march.silhouette_adaptation == 1u && near {
-            var along = before.slope;
-            if settings.march.test == 0u {
-                along = slope_at(segment, before.s);
-                answer.gradients += 1u;
-            }
-            if abs(along) <= settings.march.tau3 {
-                step *= 0.5;
-            }
-        }
-        s = min(before.s + step, segment.length);
-        // A step that is none would never end.
+        s = next(segment, before, &answer);
         if s <= before.s {
             break;
         }
@@ -162,7 +181,7 @@ fn narrow(
         }
         if isolates(*from_, middle) {
             *to_ = middle;
-        } else if middle.finite && (settings.march.test == 0u || isolates(middle, *to_)) {
+        } else if middle.finite && (!TAYLOR || isolates(middle, *to_)) {
             *from_ = middle;
         } else {
             // Without a finite value, and where a refutation comes too late, the bracket stays.
