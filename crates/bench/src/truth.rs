@@ -1,5 +1,8 @@
 //! What is known of rays: the side on which a judge looks answers up.
 
+use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
+
 use zeroset_cpu::{PreparedReference, Reference};
 use zeroset_raycast::{Error, Progress, Rays, Scene};
 
@@ -27,6 +30,47 @@ impl Oracle for PreparedReference {
         progress: &Progress,
     ) -> Result<Vec<Truth>, Error> {
         self.classify(rays, indices, progress)
+    }
+}
+
+/// An oracle that answers again what it was asked before without another look: for several methods that
+/// are checked on the same rays.
+pub struct Remembering<O> {
+    oracle: O,
+    known: Mutex<HashMap<RayBits, Truth>>,
+}
+
+/// The bits of a ray and of its range.
+type RayBits = ([u32; 6], [u64; 2]);
+
+impl<O: Oracle> Remembering<O> {
+    /// Nothing is known yet.
+    pub fn new(oracle: O) -> Self {
+        Self { oracle, known: Mutex::default() }
+    }
+}
+
+impl<O: Oracle> Oracle for Remembering<O> {
+    fn classify(
+        &self,
+        rays: Rays<'_>,
+        indices: &[usize],
+        progress: &Progress,
+    ) -> Result<Vec<Truth>, Error> {
+        let key = |i: usize| {
+            let (o, d) = (rays.get(i).origin, rays.get(i).direction);
+            let bits = [o.x, o.y, o.z, d.x, d.y, d.z].map(f32::to_bits);
+            (bits, rays.range().map(f64::to_bits))
+        };
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let unknown: Vec<usize> = {
+            let known = known();
+            indices.iter().copied().filter(|&i| !known.contains_key(&key(i))).collect()
+        };
+        let truths = self.oracle.classify(rays, &unknown, progress)?;
+        let mut known = known();
+        known.extend(unknown.iter().map(|&i| key(i)).zip(truths));
+        Ok(indices.iter().map(|&i| known[&key(i)]).collect())
     }
 }
 

@@ -74,19 +74,10 @@ impl Suite<'_> {
         }
     }
 
-    /// The truth about the rays of these indices, all that are valid; once for the view.
+    /// The truth about the rays of these indices, all that are valid.
     fn truths(&mut self, place: &str, rays: Rays<'_>, indices: &[usize]) -> Option<Vec<Truth>> {
-        let is_view = matches!(rays, Rays::View(_));
-        if is_view && self.view_truths.is_some() {
-            return self.view_truths.clone();
-        }
         match self.oracle.classify(rays, indices, &Progress::new()) {
-            Ok(truths) => {
-                if is_view {
-                    self.view_truths = Some(truths.clone());
-                }
-                Some(truths)
-            }
+            Ok(truths) => Some(truths),
             Err(error) => {
                 self.fail("the reference classifies the rays", format!("{place}: {error}"));
                 None

@@ -19,7 +19,7 @@ use std::fmt;
 
 use zeroset_raycast::{Error, Method, Scene};
 
-use crate::{Oracle, truth};
+use crate::{Oracle, Remembering, truth};
 use suite::Suite;
 
 /// A rule that a method breaks.
@@ -42,14 +42,15 @@ impl fmt::Display for Failure {
 /// A method that does not support the scene passes if it says so whenever it is asked.
 pub fn check(method: &dyn Method, scene: &Scene) -> Vec<Failure> {
     match truth::reference(scene) {
-        Ok(oracle) => check_with(&oracle, method, scene),
+        Ok(oracle) => check_with(&Remembering::new(oracle), method, scene),
         Err(error) => {
             vec![Failure { rule: "the reference has the scene", detail: error.to_string() }]
         }
     }
 }
 
-/// As [`check`], but against another oracle than the reference.
+/// As [`check`], but against another oracle than the reference: its own, or one that is asked the same for
+/// several methods and [remembers](Remembering).
 pub fn check_with(oracle: &dyn Oracle, method: &dyn Method, scene: &Scene) -> Vec<Failure> {
     let mut suite = Suite::new(oracle, method, scene);
     suite.check_names();

@@ -5,7 +5,7 @@ use zeroset_raycast::{
 };
 
 use super::Failure;
-use crate::{Oracle, Truth};
+use crate::Oracle;
 
 /// A check in progress.
 pub(super) struct Suite<'a> {
@@ -13,12 +13,11 @@ pub(super) struct Suite<'a> {
     pub(super) method: &'a dyn Method,
     pub(super) scene: &'a Scene,
     pub(super) failures: Vec<Failure>,
-    pub(super) view_truths: Option<Vec<Truth>>,
 }
 
 impl<'a> Suite<'a> {
     pub(super) fn new(oracle: &'a dyn Oracle, method: &'a dyn Method, scene: &'a Scene) -> Self {
-        Self { oracle, method, scene, failures: Vec::new(), view_truths: None }
+        Self { oracle, method, scene, failures: Vec::new() }
     }
 
     pub(super) fn fail(&mut self, rule: &'static str, detail: impl Into<String>) {
