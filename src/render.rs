@@ -6,7 +6,7 @@ use std::time::Instant;
 use clap::Args;
 use zeroset::bench;
 use zeroset::raycast::{Method, Progress, Scene, View};
-use zeroset::shade::{Environment, ViewKind};
+use zeroset::shade::ViewKind;
 
 use crate::animate::Animator;
 use crate::destination::{self, Destination, FrameFiles, is_exr};
@@ -94,9 +94,6 @@ impl Render {
     fn stay(&self, frames: Option<usize>) -> Result<(), Failure> {
         if self.legend {
             return Err(Failure::usage("--legend is not for --resident"));
-        }
-        if self.light.environment != Environment::Plain {
-            return Err(Failure::usage("--environment is not for --resident"));
         }
         let options = match frames {
             None => self.scene.clone(),

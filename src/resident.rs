@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use zeroset::cpu::RootTest;
 use zeroset::gpu::{AmpGpu, Frames, Look, Shadows};
 use zeroset::raycast::{Method, Progress, Scene, View};
-use zeroset::shade::{Picture, ViewKind, shaded};
+use zeroset::shade::{Picture, ViewKind};
 
 use crate::animate;
 use crate::destination::{Destination, FrameFiles, is_exr};
@@ -118,22 +118,14 @@ impl Resident<'_> {
             self.motion.set(&mut scene.parameters, index);
             frames.set_parameters(&scene.parameters)?;
         }
-        let lights: Vec<_> = self
-            .light
-            .lights(&view)
-            .iter()
-            .map(|light| (light.direction.normalize_or_zero(), light.strength))
-            .collect();
-        let palette = shaded::palette();
+        let lights = self.light.lights(&view);
         let look = Look {
-            lights: &lights,
             shadows: match self.light.shadows {
                 lighting::Shadows::Off => Shadows::Off,
                 lighting::Shadows::On => Shadows::On,
             },
-            front: palette.front,
-            back: palette.back,
-            background: &shaded::background(view.height),
+            environment: self.light.environment,
+            ..Look::lit(&lights)
         };
         let device = frames.draw(&view, &look, self.progress)?;
         let drawn = start.elapsed();

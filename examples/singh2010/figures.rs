@@ -1,9 +1,12 @@
 //! Fig. 4, 5, 6 and 9: settings, what they cost and what they lose.
 
+use std::path::Path;
+
 use zeroset::bench::{Class, Sample, Tolerance, Truths, Verdict, judge, truth};
 use zeroset::cpu::Implicit;
 use zeroset::cpu::amp::{Adaptation, Amp, RootTest, Settings};
-use zeroset::raycast::{Camera, Hits, Method, Progress, Rays, Request, Scene, View};
+use zeroset::raycast::{Camera, Hits, Method, Progress, Projection, Rays, Request, Scene, View};
+use zeroset::shade::Picture;
 
 use crate::published::{FIG_9_STEPS, FIG_9_THRESHOLDS};
 use crate::{Failure, surface};
@@ -26,8 +29,22 @@ struct Outcome {
 
 impl Judged {
     fn new(id: &str, size: usize) -> Result<Self, Failure> {
+        Self::zoomed(id, size, 1.0)
+    }
+
+    /// In the default view, narrowed around its middle.
+    fn zoomed(id: &str, size: usize, zoom: f64) -> Result<Self, Failure> {
         let scene = surface(id)?;
-        let view = View::new(Camera::facing(&scene.domain), size, size);
+        let mut view = View::new(Camera::facing(&scene.domain), size, size);
+        view.camera.projection = match view.camera.projection {
+            Projection::Perspective { fov } => {
+                let half = (0.5 * fov.to_radians()).tan() / zoom;
+                Projection::Perspective { fov: 2.0 * half.atan().to_degrees() }
+            }
+            Projection::Orthographic { height } => {
+                Projection::Orthographic { height: height / zoom }
+            }
+        };
         let rays = Rays::View(&view);
         let sample = Sample::every(1, rays);
         let oracle = truth::reference(&scene)?;
@@ -104,10 +121,70 @@ pub(crate) fn fig_4_5(size: usize) -> Result<(), Failure> {
             );
         }
     }
+    Ok(())
+}
+
+/// Where pictures are written.
+const FOLDER: &str = "out/singh2010";
+
+/// Writes a picture of grey values, a row after another from the top.
+fn save(name: &str, [width, height]: [usize; 2], greys: &[f64]) -> Result<(), Failure> {
+    let bytes = greys.iter().map(|grey| [(255.0 * grey.clamp(0.0, 1.0)) as u8; 3]).collect();
+    let file = Path::new(FOLDER).join(name);
+    Picture::from_pixels(width, height, bytes)?.save_png(&file)?;
+    println!("- `{}`", file.display());
+    Ok(())
+}
+
+/// The maps of Fig. 5: samples along each ray without silhouette adaptation, with it, and twice the
+/// difference; darker for fewer.
+pub(crate) fn fig_5_maps(size: usize) -> Result<(), Failure> {
+    println!("\n## Fig. 5, {size}x{size}: maps of samples\n");
+    std::fs::create_dir_all(FOLDER)?;
+    let scene = surface("barth-decic")?;
+    let view = View::new(Camera::facing(&scene.domain), size, size);
+    let counts = |silhouette_adaptation| -> Result<Vec<f64>, Failure> {
+        let amp = Amp { silhouette_adaptation, ..Amp::default() };
+        let mut hits = Hits::new(Request::First, size * size);
+        amp.prepare(&scene)?.intersect(Rays::View(&view), &mut hits, &Progress::new())?;
+        Ok(samples(&hits).into_iter().map(|n| n as f64).collect())
+    };
+    let (without, with) = (counts(Adaptation::Off)?, counts(Adaptation::On)?);
+    let most = with.iter().copied().fold(1.0, f64::max);
+    let scaled = |counts: &[f64]| counts.iter().map(|n| n / most).collect::<Vec<_>>();
+    let more: Vec<f64> = with.iter().zip(&without).map(|(a, b)| a - b).collect();
+    let twice: Vec<f64> = more.iter().map(|n| 2.0 * n.abs() / most).collect();
+    save("fig-5-without.png", [size; 2], &scaled(&without))?;
+    save("fig-5-with.png", [size; 2], &scaled(&with))?;
+    save("fig-5-difference.png", [size; 2], &twice)?;
+    let changed = more.iter().filter(|n| **n != 0.0).count();
     println!(
-        "\nThe maps themselves: `zeroset render barth-decic --method amp-sign --view steps`, and the same \
-         with `--set amp-sign.silhouette_adaptation=off`."
+        "\nWhite is {most} samples. With silhouette adaptation {changed} of {} rays take another number \
+         of them: {:.1} more in the mean, {} at most.",
+        size * size,
+        more.iter().sum::<f64>() / changed.max(1) as f64,
+        more.iter().copied().fold(0.0, f64::max)
     );
+    Ok(())
+}
+
+/// Fig. 7: the Chmutov surface of order 50, whole and a sixteenth of the view's side, by form.
+pub(crate) fn fig_7(size: usize) -> Result<(), Failure> {
+    println!("\n## Fig. 7, {size}x{size}: Chmutov 50 and its zoom\n");
+    println!("| form | view | rays that cross | lost | false | samples a ray |");
+    println!("|---|---|---|---|---|---|");
+    for id in ["chmutov-50", "chmutov-50-recurrence", "chmutov-50-cosine"] {
+        for (name, zoom) in [("whole", 1.0), ("zoomed 16 times", 16.0)] {
+            let judged = Judged::zoomed(id, size, zoom)?;
+            let Outcome { hits, lost, false_hits, .. } = judged.cast(&Amp::default())?;
+            let crossing = judged.truths.truths.iter().filter(|t| t.class == Class::Transversal);
+            println!(
+                "| {id} | {name} | {} | {lost} | {false_hits} | {:.1} |",
+                crossing.count(),
+                mean(samples(&hits).into_iter())
+            );
+        }
+    }
     Ok(())
 }
 

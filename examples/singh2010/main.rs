@@ -37,7 +37,10 @@ fn on_the_cpu(size: usize) -> Result<(), Failure> {
     tables::table_1(size)?;
     tables::table_3(size)?;
     figures::fig_4_5(judged)?;
+    figures::fig_5_maps(size)?;
     figures::fig_6(judged)?;
+    // The reference takes 10 ms a ray.
+    figures::fig_7(judged.min(48))?;
     figures::fig_9(judged)?;
     counts::section_3_1()?;
     counts::chebyshev(size.min(32))

@@ -1,6 +1,7 @@
 //! How much of a device the march of the Chmutov surface of order 14 uses (Section 4.3), and where the
 //! rest goes: chains of multiplications and additions, values alone, and the march.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use zeroset::cpu::Amp;
@@ -8,10 +9,9 @@ use zeroset::cpu::amp::Adaptation;
 use zeroset::expr::Tape;
 use zeroset::gpu::device::{AsBinding, Binding, Buffer, Kernel};
 use zeroset::gpu::program::{Module, Numbers};
-use zeroset::gpu::{AmpGpu, Device, Frames, Look, Shadows};
+use zeroset::gpu::{AmpGpu, Device, Frames, Look};
 use zeroset::ia::Rounding;
 use zeroset::raycast::{Camera, Hits, Method, Progress, Rays, Request, View, Work};
-use zeroset::shade::shaded;
 
 use crate::timing::Timing;
 use crate::{Failure, counts, row};
@@ -71,16 +71,16 @@ const INVOCATIONS: [usize; 2] = [1 << 14, 1 << 22];
 const LONG: f64 = 0.02;
 
 /// A kernel that does nothing but compute.
-pub(crate) struct Load<'a> {
-    device: &'a Device,
+pub(crate) struct Load {
+    device: Arc<Device>,
     kernel: Kernel,
     constants: Buffer<[f32; 4]>,
     out: Buffer<f32>,
 }
 
-impl<'a> Load<'a> {
+impl Load {
     pub(crate) fn new(
-        device: &'a Device,
+        device: &Arc<Device>,
         module: &Module,
         body: &str,
         invocations: usize,
@@ -90,7 +90,7 @@ impl<'a> Load<'a> {
         let constants = device.uniform(module.constants().len())?;
         device.write(&constants, &module.constants())?;
         let out = device.storage::<f32>(invocations)?;
-        Ok(Self { device, kernel, constants, out })
+        Ok(Self { device: Arc::clone(device), kernel, constants, out })
     }
 
     /// Runs it once; the device's time.
@@ -102,8 +102,8 @@ impl<'a> Load<'a> {
 
 /// The rate of a kernel with so many operations an invocation, a second.
 fn rate(
-    timing: &Timing<'_>,
-    device: &Device,
+    timing: &Timing,
+    device: &Arc<Device>,
     module: &Module,
     body: &str,
     operations: f64,
@@ -138,8 +138,8 @@ fn busy(hits: &Hits, [width, height]: [usize; 2]) -> f64 {
 
 /// Section 4.3: what a frame of the Chmutov surface of order 14 takes, and the share of the device's peak.
 pub(crate) fn section_4_3(
-    timing: &Timing<'_>,
-    device: &Device,
+    timing: &Timing,
+    device: &Arc<Device>,
     size: usize,
 ) -> Result<(), Failure> {
     println!("\n## Section 4.3, {size}x{size}, on the device\n");
@@ -192,9 +192,8 @@ pub(crate) fn section_4_3(
             Ok(report.device_time)
         })?;
         let mut frames = Frames::new(&method, &scene)?;
-        let background = shaded::background(size);
         let resident =
-            timing.least(|| Ok(frames.draw(&view, &unlit(&background), &Progress::new())?))?;
+            timing.least(|| Ok(frames.draw(&view, &Look::lit(&[]), &Progress::new())?))?;
         let operations = work.points as f64 * value + work.gradients as f64 * slope;
         for (what, time) in
             [("`amp-sign-gpu`", least), ("the same, a frame that stays there", resident)]
@@ -210,10 +209,4 @@ pub(crate) fn section_4_3(
         }
     }
     Ok(())
-}
-
-/// White under no light.
-fn unlit(background: &[[u8; 3]]) -> Look<'_> {
-    let white = glam::Vec3::ONE;
-    Look { lights: &[], shadows: Shadows::Off, front: white, back: white, background }
 }

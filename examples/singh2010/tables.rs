@@ -29,7 +29,7 @@ struct Cast {
 }
 
 fn cast(
-    timing: &Timing<'_>,
+    timing: &Timing,
     intersector: &dyn Intersector,
     rays: Rays<'_>,
     request: Request,
@@ -135,7 +135,7 @@ pub(crate) fn table_1(size: usize) -> Result<(), Failure> {
 }
 
 /// Table 1 on the device: whole frames that stay there, by its clock.
-pub(crate) fn table_1_device(timing: &Timing<'_>, size: usize) -> Result<(), Failure> {
+pub(crate) fn table_1_device(timing: &Timing, size: usize) -> Result<(), Failure> {
     println!("\n## Table 1, {size}x{size}, on the device\n");
     println!(
         "Frames a second of frames that stay on the device, by its clock; without and with shadows of one \
@@ -148,21 +148,13 @@ pub(crate) fn table_1_device(timing: &Timing<'_>, size: usize) -> Result<(), Fai
     for (i, printed) in TABLE_1.iter().enumerate() {
         let scene = row(1, i + 1)?;
         let view = View::new(Camera::facing(&scene.domain), size, size);
-        let light = light(&view);
-        let lights = [(light.direction.normalize_or_zero(), light.strength)];
-        let (palette, background) = (shaded::palette(), shaded::background(size));
+        let lights = [light(&view)];
         let mut rates = Vec::new();
         for test in [RootTest::Sign, RootTest::Taylor] {
             let method = AmpGpu::new(test);
             let mut frames = Frames::new(&method, &scene)?;
             for shadows in [Shadows::Off, Shadows::On] {
-                let look = Look {
-                    lights: &lights,
-                    shadows,
-                    front: palette.front,
-                    back: palette.back,
-                    background: &background,
-                };
+                let look = Look { shadows, ..Look::lit(&lights) };
                 let time = timing.least(|| Ok(frames.draw(&view, &look, &Progress::new())?))?;
                 rates.push(1e3 / ms(time));
             }
@@ -187,7 +179,7 @@ pub(crate) fn table_1_device(timing: &Timing<'_>, size: usize) -> Result<(), Fai
 }
 
 /// Table 2: the sign test over an interval method, on the device.
-pub(crate) fn table_2(timing: &Timing<'_>, size: usize) -> Result<(), Failure> {
+pub(crate) fn table_2(timing: &Timing, size: usize) -> Result<(), Failure> {
     println!("\n## Table 2, {size}x{size}, on the device\n");
     println!(
         "Bisection along the ray with intervals rounded to nearest, to depth 10, every last piece a hit; \
@@ -272,7 +264,7 @@ fn single(row_index: usize, size: usize) -> Result<(Scene, f64), Failure> {
 }
 
 /// Table 3: the sign test on one thread of the CPU against that on the device.
-pub(crate) fn table_3_device(timing: &Timing<'_>, size: usize) -> Result<(), Failure> {
+pub(crate) fn table_3_device(timing: &Timing, size: usize) -> Result<(), Failure> {
     println!("\n## Table 3, {size}x{size}, on the device\n");
     println!("| surface | one CPU thread ms | device ms | CPU over device, paper | measured |");
     println!("|{}", "---|".repeat(5));

@@ -67,6 +67,8 @@ fn resident_frames_look_like_others() {
         // The edge of a shadow moves with the bracket's width.
         (&["--shadows", "on"], 0.03),
         (&["--camera", "ortho=7"], 0.005),
+        (&["--environment", "sky"], 0.005),
+        (&["--environment", "sky", "--shadows", "on"], 0.03),
     ] {
         let pictures =
             [("amp-sign", &[][..]), ("amp-sign-gpu", &["--resident"])].map(|(id, own)| {
@@ -124,7 +126,6 @@ fn what_does_not_stay_on_a_device_is_refused() {
         (&["--method", "kmarch"][..], "--resident is for --method amp-sign-gpu or amp-taylor-gpu"),
         (&["--method", "amp-sign-gpu", "--view", "depth"], "--resident is for --view shaded"),
         (&["--method", "amp-sign-gpu", "--legend"], "--legend"),
-        (&["--method", "amp-sign-gpu", "--environment", "sky"], "--environment"),
         (&["--method", "amp-sign-gpu", "--out", "p.exr"], ".png"),
     ] {
         if more.contains(&"amp-sign-gpu") && !has_device() {

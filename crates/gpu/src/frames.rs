@@ -9,6 +9,9 @@ use zeroset_cpu::Implicit;
 use zeroset_cpu::amp::{Amp, Settings};
 use zeroset_expr::{Parameters, Tape};
 use zeroset_raycast::{Camera, Error, Method, Progress, Projection, Scene, Unsupported, View};
+use zeroset_shade::environment::{BLUR, CLEAR, FACING, TILE};
+use zeroset_shade::shaded::{self, Palette};
+use zeroset_shade::{Environment, Light, Sky};
 
 use crate::amp::{AmpGpu, SentMarch, known, module};
 use crate::compiled::Compiled;
@@ -23,7 +26,10 @@ pub fn shader(amp: &Amp, tape: &Tape) -> Result<String, Unsupported> {
 }
 
 fn kernel(amp: &Amp) -> String {
-    known(amp) + KERNEL
+    let of_sky = format!(
+        "const FACING = {FACING:?};\nconst TILE = {TILE:?};\nconst CLEAR = {CLEAR:?};\nconst BLUR = {BLUR:?};\n"
+    );
+    known(amp) + &of_sky + KERNEL
 }
 
 const KERNEL: &str =
@@ -45,24 +51,34 @@ pub enum Shadows {
 /// What a frame looks like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look<'a> {
-    /// Unit vectors towards lights at infinity, and what a white surface that faces them reflects.
-    pub lights: &'a [(Vec3, f32)],
+    /// The lights; which pixels they do not reach is found out here.
+    pub lights: &'a [Light],
     /// Are shadow rays cast?
     pub shadows: Shadows,
-    /// The linear colour of the side that the gradient points out of.
-    pub front: Vec3,
-    /// The linear colour of the other side.
-    pub back: Vec3,
-    /// The background's bytes, encoded as sRGB: one colour a row.
-    pub background: &'a [[u8; 3]],
+    /// The surface's colours.
+    pub palette: Palette,
+    /// What surrounds it.
+    pub environment: Environment,
+}
+
+impl<'a> Look<'a> {
+    /// Under lights without shadows, as [`shaded::picture`] has it.
+    pub fn lit(lights: &'a [Light]) -> Self {
+        Self {
+            lights,
+            shadows: Shadows::Off,
+            palette: shaded::palette(),
+            environment: Environment::Plain,
+        }
+    }
 }
 
 /// Shaded frames by adaptive marching points, made on the device from the camera to the image
 /// (Algorithm 2 of \[singh2010\]): for animations, and for times as the paper has them.
 ///
 /// Rays are made in single precision, so a frame is a picture, not a set of answers: for those, and for
-/// cameras farther away than single precision resolves, cast with [`AmpGpu`]. Surfaces are lit on both
-/// sides by Lambert's law, with a little ambient light from above.
+/// cameras farther away than single precision resolves, cast with [`AmpGpu`]. It is lit, and mirrors what
+/// surrounds it, as [`shaded::picture`] has it.
 pub struct Frames {
     method: AmpGpu,
     implicit: Implicit,
@@ -101,11 +117,43 @@ struct SentSettings {
     shadows: u32,
     longest: f32,
     unused: u32,
+    sky: SentSky,
     light: [[f32; 4]; MOST_LIGHTS],
 }
 
-/// Pixels along the side of a workgroup's tile.
-const TILE: usize = 8;
+/// The sky in the shader's `Settings`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+struct SentSky {
+    up: [f32; 4],
+    edges: [[f32; 4]; 2],
+    zenith: [f32; 4],
+    horizon: [f32; 4],
+    tiles: [[f32; 4]; 2],
+    sun: [f32; 4],
+}
+
+impl SentSky {
+    fn new(view: &View, environment: Environment) -> Self {
+        let with = |v: Vec3, w: f32| v.extend(w).to_array();
+        let Sky { up, edges, zenith, horizon, tiles, sun } = Sky::new(view);
+        let is_seen = match environment {
+            Environment::Plain => 0.0,
+            Environment::Sky => 1.0,
+        };
+        Self {
+            up: with(up, is_seen),
+            edges: edges.map(|edge| with(edge, 0.0)),
+            zenith: with(zenith, 0.0),
+            horizon: with(horizon, 0.0),
+            tiles: tiles.map(|tile| with(tile, 0.0)),
+            sun: with(sun, 0.0),
+        }
+    }
+}
+
+/// Pixels along the side of a workgroup's block.
+const BLOCK: usize = 8;
 /// Pixels of the first band of rows.
 const FIRST_BAND: usize = 1 << 20;
 /// A band should take no longer: drivers reset a device that hangs, and one may want to stop.
@@ -126,15 +174,8 @@ impl Frames {
         let mut frames =
             Self { method, implicit, published_step, settings, compiled, canvas: None };
         // Drivers compile when a kernel first runs.
-        let view = View::new(Camera::facing(&frames.implicit.domain), TILE, TILE);
-        let look = Look {
-            lights: &[],
-            shadows: Shadows::Off,
-            front: Vec3::ONE,
-            back: Vec3::ONE,
-            background: &[[0; 3]; TILE],
-        };
-        frames.draw(&view, &look, &Progress::new())?;
+        let view = View::new(Camera::facing(&frames.implicit.domain), BLOCK, BLOCK);
+        frames.draw(&view, &Look::lit(&[]), &Progress::new())?;
         frames.canvas = None;
         Ok(frames)
     }
@@ -157,16 +198,12 @@ impl Frames {
     /// # Errors
     /// If there are more than [`MOST_LIGHTS`] lights, the image is larger than a buffer may be, the
     /// device fails, or the work was asked to stop.
-    ///
-    /// # Panics
-    /// If the background has not one colour a row.
     pub fn draw(
         &mut self,
         view: &View,
         look: &Look<'_>,
         progress: &Progress,
     ) -> Result<Option<Duration>, Error> {
-        assert_eq!(look.background.len(), view.height, "one colour a row");
         if look.lights.len() > MOST_LIGHTS {
             let count = look.lights.len();
             return Err(Error::Device(format!("{count} lights; a frame takes {MOST_LIGHTS}")));
@@ -181,12 +218,14 @@ impl Frames {
             self.canvas = Some(self.canvas(size)?);
         }
         let canvas = self.canvas.as_ref().expect("made above");
-        let background: Vec<u32> =
-            look.background.iter().map(|[r, g, b]| u32::from_le_bytes([*r, *g, *b, 255])).collect();
+        let background: Vec<u32> = shaded::background(view.height)
+            .into_iter()
+            .map(|[r, g, b]| u32::from_le_bytes([r, g, b, 255]))
+            .collect();
         device.write(&canvas.background, &background)?;
-        let columns = view.width.div_ceil(TILE);
+        let columns = view.width.div_ceil(BLOCK);
         let mut sent = self.sent(view, look);
-        let mut rows = (FIRST_BAND / view.width).max(TILE).next_multiple_of(TILE);
+        let mut rows = (FIRST_BAND / view.width).max(BLOCK).next_multiple_of(BLOCK);
         let (mut row, mut total) = (0, None);
         while row < view.height {
             let end = (row + rows).min(view.height);
@@ -194,12 +233,12 @@ impl Frames {
             device.write(&canvas.settings, &[sent])?;
             let bound: [&dyn AsBinding; 4] =
                 [&self.compiled.constants, &canvas.settings, &canvas.background, &canvas.image];
-            let tiles = columns * (end - row).div_ceil(TILE);
+            let blocks = columns * (end - row).div_ceil(BLOCK);
             let start = std::time::Instant::now();
-            let time = device.run(&self.compiled.kernel, &bound, tiles * TILE * TILE)?;
+            let time = device.run(&self.compiled.kernel, &bound, blocks * BLOCK * BLOCK)?;
             total = time.map(|time| time + total.unwrap_or_default());
             if start.elapsed() > BAND_TIME {
-                rows = (rows / 2).max(TILE).next_multiple_of(TILE);
+                rows = (rows / 2).max(BLOCK).next_multiple_of(BLOCK);
             }
             progress.advance((end - row) * view.width)?;
             row = end;
@@ -259,8 +298,8 @@ impl Frames {
         };
         let domain = &self.implicit.domain;
         let mut light = [[0.0; 4]; MOST_LIGHTS];
-        for (sent, (direction, strength)) in light.iter_mut().zip(look.lights) {
-            *sent = with(direction.as_dvec3(), (*strength).into());
+        for (sent, light) in light.iter_mut().zip(look.lights) {
+            *sent = light.direction.normalize_or_zero().extend(light.strength).to_array();
         }
         SentSettings {
             march: SentMarch::new(&self.settings),
@@ -270,14 +309,15 @@ impl Frames {
             up: with(extent * up, 0.0),
             low: with(domain.min, domain.ball.unwrap_or(0.0)),
             high: with(domain.max, domain.longest_side()),
-            front: with(look.front.as_dvec3(), 0.0),
-            back: with(look.back.as_dvec3(), 0.0),
+            front: look.palette.front.extend(0.0).to_array(),
+            back: look.palette.back.extend(0.0).to_array(),
             size: [view.width as u32, view.height as u32],
             rows: [0; 2],
             lights: look.lights.len() as u32,
             shadows: (look.shadows == Shadows::On).into(),
             longest: self.settings.longest as f32,
             unused: 0,
+            sky: SentSky::new(view, look.environment),
             light,
         }
     }

@@ -51,75 +51,49 @@ impl fmt::Display for Environment {
 }
 
 /// The share of the light that is mirrored where the surface faces the eye.
-const FACING: f32 = 0.22;
+pub const FACING: f32 = 0.22;
 
 /// The side of a tile, in units of the eye's height above the floor.
-const TILE: f32 = 0.8;
+pub const TILE: f32 = 0.8;
 
 /// How far one sees before half of the contrast is lost in haze, in the same unit.
-const CLEAR: f32 = 7.0;
+pub const CLEAR: f32 = 7.0;
 
 /// The angle over which a direction is blurred, so that tiles do not alias where surfaces curve:
 /// radians.
-const BLUR: f32 = 0.005;
+pub const BLUR: f32 = 0.005;
 
-/// The light of a sky over a chequered floor, by direction.
-pub(crate) struct Sky<'a> {
-    up: Vec3,
+/// Where a sky over a chequered floor is, and its linear colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sky {
+    /// The zenith's direction, a unit vector.
+    pub up: Vec3,
     /// The directions of the tiles' edges.
-    edges: [Vec3; 2],
-    lights: &'a [Light],
-    /// Unit vectors towards them.
-    towards: Vec<Vec3>,
-    zenith: Vec3,
-    horizon: Vec3,
-    tiles: [Vec3; 2],
-    sun: Vec3,
+    pub edges: [Vec3; 2],
+    /// Straight up.
+    pub zenith: Vec3,
+    /// Where sky and floor meet.
+    pub horizon: Vec3,
+    /// Light and dark.
+    pub tiles: [Vec3; 2],
+    /// A light's.
+    pub sun: Vec3,
 }
 
-impl<'a> Sky<'a> {
+impl Sky {
     /// The sky of a view: its zenith is where the camera's `up` points, so that it stays where it is
     /// when the camera's azimuth turns.
-    pub(crate) fn new(view: &View, lights: &'a [Light]) -> Self {
+    pub fn new(view: &View) -> Self {
         let up = view.camera.up.normalize_or(glam::DVec3::Z).as_vec3();
         let (a, b) = up.any_orthonormal_pair();
         Self {
             up,
             edges: [a, b],
-            lights,
-            towards: lights.iter().map(|light| light.direction.normalize_or_zero()).collect(),
             zenith: Colour::oklch(0.50, 0.12, 255.0).0,
             horizon: Colour::oklch(0.93, 0.035, 225.0).0,
             tiles: [Colour::oklch(0.78, 0.03, 80.0).0, Colour::oklch(0.42, 0.05, 45.0).0],
             sun: Colour::oklch(0.98, 0.03, 90.0).0,
         }
-    }
-
-    /// The light from a direction, a unit vector, as it reaches a pixel: suns that are blocked
-    /// there do not.
-    pub(crate) fn light(&self, direction: Vec3, pixel: usize) -> Vec3 {
-        let height = direction.dot(self.up);
-        let around = if height > 0.0 {
-            self.horizon.lerp(self.zenith, height.sqrt())
-        } else {
-            self.floor(direction, -height)
-        };
-        let mut light = around;
-        for (towards, source) in self.towards.iter().zip(self.lights) {
-            if !source.blocked.get(pixel).is_some_and(|blocked| *blocked) {
-                light += source.strength * glow(direction.dot(*towards)) * self.sun;
-            }
-        }
-        light
-    }
-
-    /// What a surface shows: its own colour, and what it mirrors, r = d - 2 (n.d) n, more of it the
-    /// more obliquely it is seen (C. Schlick, "An inexpensive BRDF model", 1994).
-    pub(crate) fn polish(&self, own: Vec3, direction: Vec3, normal: Vec3, pixel: usize) -> Vec3 {
-        let cosine = -direction.dot(normal);
-        let mirrored = self.light(direction + 2.0 * cosine * normal, pixel);
-        let share = FACING + (1.0 - FACING) * (1.0 - cosine.clamp(0.0, 1.0)).powi(5);
-        own.lerp(mirrored, share)
     }
 
     /// The floor, one unit below; `depth` is by how much the direction, a unit vector, goes down.
@@ -132,6 +106,48 @@ impl<'a> Sky<'a> {
         let [light, dark] = self.tiles;
         let tiles = dark.lerp(light, 0.5 + 0.5 * a * b);
         tiles.lerp(self.horizon, 1.0 - (-distance / CLEAR).exp2())
+    }
+}
+
+/// The light of a sky with suns, by direction.
+pub(crate) struct Surroundings<'a> {
+    sky: Sky,
+    lights: &'a [Light],
+    /// Unit vectors towards them.
+    towards: Vec<Vec3>,
+}
+
+impl<'a> Surroundings<'a> {
+    pub(crate) fn new(view: &View, lights: &'a [Light]) -> Self {
+        let towards = lights.iter().map(|light| light.direction.normalize_or_zero()).collect();
+        Self { sky: Sky::new(view), lights, towards }
+    }
+
+    /// The light from a direction, a unit vector, as it reaches a pixel: suns that are blocked
+    /// there do not.
+    pub(crate) fn light(&self, direction: Vec3, pixel: usize) -> Vec3 {
+        let height = direction.dot(self.sky.up);
+        let around = if height > 0.0 {
+            self.sky.horizon.lerp(self.sky.zenith, height.sqrt())
+        } else {
+            self.sky.floor(direction, -height)
+        };
+        let mut light = around;
+        for (towards, source) in self.towards.iter().zip(self.lights) {
+            if !source.blocked.get(pixel).is_some_and(|blocked| *blocked) {
+                light += source.strength * glow(direction.dot(*towards)) * self.sky.sun;
+            }
+        }
+        light
+    }
+
+    /// What a surface shows: its own colour, and what it mirrors, r = d - 2 (n.d) n, more of it the
+    /// more obliquely it is seen (C. Schlick, "An inexpensive BRDF model", 1994).
+    pub(crate) fn polish(&self, own: Vec3, direction: Vec3, normal: Vec3, pixel: usize) -> Vec3 {
+        let cosine = -direction.dot(normal);
+        let mirrored = self.light(direction + 2.0 * cosine * normal, pixel);
+        let share = FACING + (1.0 - FACING) * (1.0 - cosine.clamp(0.0, 1.0)).powi(5);
+        own.lerp(mirrored, share)
     }
 }
 
@@ -175,22 +191,22 @@ mod tests {
     #[test]
     fn the_sky_is_blue_above_and_chequered_below() {
         let view = view();
-        let sky = Sky::new(&view, &[]);
-        let above = sky.light(Vec3::Z, 0);
+        let around = Surroundings::new(&view, &[]);
+        let above = around.light(Vec3::Z, 0);
         assert!(above.z > above.x, "{above}");
-        assert_eq!(above, sky.zenith);
+        assert_eq!(above, around.sky.zenith);
         // Neighbouring tiles differ, tiles across a corner do not.
-        let [a, b] = sky.edges;
+        let [a, b] = around.sky.edges;
         let tile = |i: f32, j: f32| {
             let at = TILE * ((i + 0.5) * a + (j + 0.5) * b);
-            sky.light((at - sky.up).normalize(), 0)
+            around.light((at - around.sky.up).normalize(), 0)
         };
         let difference = |p: Vec3, q: Vec3| (p - q).abs().max_element();
         assert!(difference(tile(0.0, 0.0), tile(0.0, 1.0)) > 0.1);
         assert!(difference(tile(0.0, 0.0), tile(-1.0, 0.0)) > 0.1);
         assert!(difference(tile(0.0, 0.0), tile(-1.0, -1.0)) < 1e-4);
         // Floor and sky meet in haze.
-        let level = |height: f32| sky.light((a + height * sky.up).normalize(), 0);
+        let level = |height: f32| around.light((a + height * around.sky.up).normalize(), 0);
         assert!(difference(level(1e-6), level(-1e-6)) < 0.01);
     }
 
@@ -199,31 +215,31 @@ mod tests {
         let view = view();
         let lights =
             [Light { blocked: vec![false, true], ..Light::new(Vec3::new(0.0, 3.0, 4.0), 0.5) }];
-        let sky = Sky::new(&view, &lights);
-        let none = Sky::new(&view, &[]);
+        let around = Surroundings::new(&view, &lights);
+        let none = Surroundings::new(&view, &[]);
         let towards = Vec3::new(0.0, 0.6, 0.8);
-        assert!((sky.light(towards, 0) - none.light(towards, 0)).min_element() > 1.0);
-        assert_eq!(sky.light(towards, 1), none.light(towards, 1));
-        let away = sky.light(-towards, 0) - none.light(-towards, 0);
+        assert!((around.light(towards, 0) - none.light(towards, 0)).min_element() > 1.0);
+        assert_eq!(around.light(towards, 1), none.light(towards, 1));
+        let away = around.light(-towards, 0) - none.light(-towards, 0);
         assert!(away.abs().max_element() < 1e-6);
     }
 
     #[test]
     fn surfaces_mirror_what_lies_at_the_mirrored_angle() {
         let view = view();
-        let sky = Sky::new(&view, &[]);
+        let around = Surroundings::new(&view, &[]);
         // From above onto a slope of 45 degrees: what is seen lies to the side.
         let normal = Vec3::new(1.0, 0.0, 1.0).normalize();
-        let shown = sky.polish(Vec3::ZERO, -Vec3::Z, normal, 0);
+        let shown = around.polish(Vec3::ZERO, -Vec3::Z, normal, 0);
         let cosine = 0.5_f32.sqrt();
         let share = FACING + (1.0 - FACING) * (1.0 - cosine).powi(5);
-        let expected = share * sky.light(Vec3::X, 0);
+        let expected = share * around.light(Vec3::X, 0);
         assert!((shown - expected).abs().max_element() < 1e-2, "{shown} {expected}");
         // Along the surface it is a mirror, and seen from the front mostly itself.
-        let along = sky.polish(Vec3::ONE, Vec3::Y, normal, 0);
-        assert!((along - sky.light(Vec3::Y, 0)).abs().max_element() < 1e-5);
-        let front = sky.polish(Vec3::ZERO, -Vec3::Z, Vec3::Z, 0);
-        assert!((front - FACING * sky.zenith).abs().max_element() < 1e-5);
+        let along = around.polish(Vec3::ONE, Vec3::Y, normal, 0);
+        assert!((along - around.light(Vec3::Y, 0)).abs().max_element() < 1e-5);
+        let front = around.polish(Vec3::ZERO, -Vec3::Z, Vec3::Z, 0);
+        assert!((front - FACING * around.sky.zenith).abs().max_element() < 1e-5);
     }
 
     #[test]

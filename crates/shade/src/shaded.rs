@@ -3,7 +3,7 @@
 use glam::Vec3;
 use zeroset_raycast::{Hits, View};
 
-use crate::environment::Sky;
+use crate::environment::Surroundings;
 use crate::legend::{Key, Legend};
 use crate::normals::{Side, seen};
 use crate::picture::{check_count, check_normals};
@@ -87,7 +87,7 @@ pub fn picture(
     let background = background(view.height);
     let sky = match environment {
         Environment::Plain => None,
-        Environment::Sky => Some(Sky::new(view, lights)),
+        Environment::Sky => Some(Surroundings::new(view, lights)),
     };
     let direction =
         |i: usize| view.ray(i % view.width, i / view.width).direction.normalize_or_zero();

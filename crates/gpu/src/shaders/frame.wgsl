@@ -1,4 +1,6 @@
-// A frame that stays on the device: rays of the camera, the march, shadow rays, Lambert's law, the image.
+// A frame that stays on the device: rays of the camera, the march, shadow rays, Lambert's law, a sky that
+// is mirrored, the image. What is seen is as zeroset_shade has it, from which come the constants FACING,
+// TILE, CLEAR and BLUR of the sky.
 
 struct Settings {
     march: March,
@@ -24,6 +26,13 @@ struct Settings {
     // No line is longer within the domain.
     longest: f32,
     unused3: u32,
+    // The sky: its zenith's direction, w: 1 if there is one; the tiles' edges; linear colours.
+    sky_up: vec4f,
+    edges: array<vec4f, 2>,
+    zenith: vec4f,
+    horizon: vec4f,
+    tiles: array<vec4f, 2>,
+    sun: vec4f,
     // Unit vectors towards lights; w: strength.
     light: array<vec4f, 8>,
 }
@@ -102,6 +111,49 @@ fn unit(v: vec3f) -> vec3f {
     return normalize(v / size);
 }
 
+// The mean over a width of the wave that is 1 on (0, 1), -1 on (1, 2), and so on.
+fn stripes(x: f32, width: f32) -> f32 {
+    let w = max(width, 1e-3);
+    let ends = vec2f(x + 0.5 * w, x - 0.5 * w);
+    let integral = 1.0 - abs(ends - 2.0 * floor(0.5 * ends) - 1.0);
+    return (integral.x - integral.y) / w;
+}
+
+// The floor, one unit below, where a direction reaches it.
+fn ground(direction: vec3f, depth: f32) -> vec3f {
+    let distance = 1.0 / max(depth, 1e-4);
+    let blur = BLUR * distance * distance;
+    let a = stripes(dot(direction, settings.edges[0].xyz) * distance / TILE, blur / TILE);
+    let b = stripes(dot(direction, settings.edges[1].xyz) * distance / TILE, blur / TILE);
+    let tiles = mix(settings.tiles[1].xyz, settings.tiles[0].xyz, 0.5 + 0.5 * a * b);
+    return mix(tiles, settings.horizon.xyz, 1.0 - exp2(-distance / CLEAR));
+}
+
+// A sun's disc and the glow around it, by the cosine of the angle from its centre.
+fn glow(cosine: f32) -> f32 {
+    let angle = degrees(acos(clamp(cosine, -1.0, 1.0)));
+    let disc = clamp(2.5 - angle, 0.0, 1.0);
+    let near = angle / 6.0;
+    let far = angle / 20.0;
+    return 6.0 * disc + 0.7 * exp(-near * near) + 0.25 * exp(-far * far);
+}
+
+// The light from a direction, without suns whose bit says that they are blocked.
+fn sky(direction: vec3f, blocked: u32) -> vec3f {
+    let height = dot(direction, settings.sky_up.xyz);
+    var light = ground(direction, -height);
+    if height > 0.0 {
+        light = mix(settings.horizon.xyz, settings.zenith.xyz, sqrt(height));
+    }
+    for (var i = 0u; i < settings.lights; i++) {
+        let source = settings.light[i];
+        if (blocked >> i & 1u) == 0u {
+            light += source.w * glow(dot(direction, source.xyz)) * settings.sun.xyz;
+        }
+    }
+    return light;
+}
+
 fn shade(direction: vec3f, p: vec3f, width: f32, distance: f32) -> u32 {
     let slope = gradient(p);
     let size = max(abs(slope.x), max(abs(slope.y), abs(slope.z)));
@@ -117,6 +169,7 @@ fn shade(direction: vec3f, p: vec3f, width: f32, distance: f32) -> u32 {
     let side = settings.high.w;
     let footprint = settings.right.w * mix(1.0, distance, settings.eye.w);
     let offset = min(max(8.0 * width, min(2.0 * footprint, side / 256.0)), side / 8.0);
+    var blocked = 0u;
     var light = 0.08 + 0.05 * dot(normal, normalize(settings.up.xyz));
     for (var i = 0u; i < settings.lights; i++) {
         let source = settings.light[i];
@@ -130,9 +183,18 @@ fn shade(direction: vec3f, p: vec3f, width: f32, distance: f32) -> u32 {
                 reaches = !(segment.length > 0.0 && march(segment, bisections).found == 1u);
             }
             light += select(0.0, source.w * facing, reaches);
+            blocked |= select(1u << i, 0u, reaches);
         }
     }
-    return bytes(light * colour);
+    let own = light * colour;
+    if settings.sky_up.w == 0.0 {
+        return bytes(own);
+    }
+    let cosine = -dot(direction, normal);
+    let mirrored = sky(direction + 2.0 * cosine * normal, blocked);
+    let past = 1.0 - clamp(cosine, 0.0, 1.0);
+    let square = past * past;
+    return bytes(mix(own, mirrored, FACING + (1.0 - FACING) * square * square * past));
 }
 
 @compute @workgroup_size(64)
@@ -158,15 +220,20 @@ fn main(
     let direction = normalize(settings.forward.xyz + perspective * offset);
 
     var colour = background[y];
+    var is_hit = false;
     let segment = segment_of(origin, direction);
     if segment.length > 0.0 {
         let answer = march(segment, settings.march.bisections);
-        if answer.found == 1u {
+        is_hit = answer.found == 1u;
+        if is_hit {
             let s = 0.5 * (answer.bracket.x + answer.bracket.y);
             let p = segment.start + s * direction;
             let width = answer.bracket.y - answer.bracket.x;
             colour = shade(direction, p, width, length(p - origin));
         }
+    }
+    if !is_hit && settings.sky_up.w == 1.0 {
+        colour = bytes(sky(direction, 0u));
     }
     image[y * settings.width + x] = colour;
 }
