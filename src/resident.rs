@@ -4,9 +4,10 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use zeroset::cpu::RootTest;
-use zeroset::gpu::{AmpGpu, Frames, Look, Shadows};
+use zeroset::gpu::{AmpGpu, Frames, Look, Shadows, Sky, Surroundings};
 use zeroset::raycast::{Method, Progress, Scene, View};
-use zeroset::shade::{Picture, ViewKind};
+use zeroset::shade::shaded::{self, Palette};
+use zeroset::shade::{Environment, Picture, ViewKind, environment};
 
 use crate::animate;
 use crate::destination::{Destination, FrameFiles, is_exr};
@@ -118,14 +119,26 @@ impl Resident<'_> {
             self.motion.set(&mut scene.parameters, index);
             frames.set_parameters(&scene.parameters)?;
         }
-        let lights = self.light.lights(&view);
+        let lights: Vec<_> = self
+            .light
+            .lights(&view)
+            .iter()
+            .map(|light| (light.direction.normalize_or_zero(), light.strength))
+            .collect();
+        let background = shaded::background(view.height);
+        let Palette { front, back } = shaded::palette();
         let look = Look {
+            lights: &lights,
             shadows: match self.light.shadows {
                 lighting::Shadows::Off => Shadows::Off,
                 lighting::Shadows::On => Shadows::On,
             },
-            environment: self.light.environment,
-            ..Look::lit(&lights)
+            front,
+            back,
+            surroundings: match self.light.environment {
+                Environment::Plain => Surroundings::Rows(&background),
+                Environment::Sky => Surroundings::Sky(sky(&view)),
+            },
         };
         let device = frames.draw(&view, &look, self.progress)?;
         let drawn = start.elapsed();
@@ -133,7 +146,14 @@ impl Resident<'_> {
         let pixels = frames.pixels()?;
         let read = start.elapsed();
         let picture = Picture::from_pixels(view.width, view.height, pixels);
-        let picture = picture.map_err(Failure::work)?.described("Lambert shading, on the device");
+        let mut description = String::from("Lambert shading, on the device");
+        if look.shadows == Shadows::On {
+            description += "; with shadows";
+        }
+        if self.light.environment == Environment::Sky {
+            description += "; mirroring a sky over a chequered floor";
+        }
+        let picture = picture.map_err(Failure::work)?.described(&description);
         Ok((picture, Times { drawn, device, read }))
     }
 
@@ -168,6 +188,14 @@ impl Resident<'_> {
         }
         output::print(format!("{}\n", facts.join("\n")).as_bytes())
     }
+}
+
+/// The sky of a view, as the device is told of it.
+fn sky(view: &View) -> Sky {
+    let environment::Sky { up, edges, zenith, horizon, tiles, sun } = environment::Sky::new(view);
+    let [tile, clear, blur, facing] =
+        [environment::TILE, environment::CLEAR, environment::BLUR, environment::FACING];
+    Sky { up, edges, zenith, horizon, tiles, sun, tile, clear, blur, facing }
 }
 
 /// The median of some times, and their range.

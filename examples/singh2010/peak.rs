@@ -9,10 +9,12 @@ use zeroset::cpu::amp::Adaptation;
 use zeroset::expr::Tape;
 use zeroset::gpu::device::{AsBinding, Binding, Buffer, Kernel};
 use zeroset::gpu::program::{Module, Numbers};
-use zeroset::gpu::{AmpGpu, Device, Frames, Look};
+use zeroset::gpu::{AmpGpu, Device, Frames};
 use zeroset::ia::Rounding;
 use zeroset::raycast::{Camera, Hits, Method, Progress, Rays, Request, View, Work};
+use zeroset::shade::shaded;
 
+use crate::tables::look;
 use crate::timing::Timing;
 use crate::{Failure, counts, row};
 
@@ -119,18 +121,25 @@ fn rate(
     }
 }
 
-/// The part of a device's lanes that march while the slowest ray of a block of 8 by 4 pixels does.
-fn busy(hits: &Hits, [width, height]: [usize; 2]) -> f64 {
+/// The part of the lanes of blocks of 8 by 4 pixels that compute a value while others of theirs do: to
+/// the step with a root, and then in bisections, which a hit takes so many of.
+fn busy(hits: &Hits, [width, height]: [usize; 2], bisections: u64) -> f64 {
     let (mut used, mut held) = (0, 0);
     for top in (0..height).step_by(4) {
         for left in (0..width).step_by(8) {
             let rows = top..(top + 4).min(height);
-            let samples = rows.flat_map(|y| {
-                (left..(left + 8).min(width)).map(move |x| hits.work[y * width + x].points)
-            });
-            let samples: Vec<u64> = samples.collect();
-            used += samples.iter().sum::<u64>();
-            held += 32 * samples.iter().max().copied().unwrap_or_default();
+            let pixels =
+                rows.flat_map(|y| (left..(left + 8).min(width)).map(move |x| y * width + x));
+            let (mut march, mut narrow) = (0, 0);
+            for pixel in pixels {
+                let points = hits.work[pixel].points;
+                let after =
+                    if hits.certificate[pixel].is_hit() { bisections.min(points) } else { 0 };
+                used += points;
+                march = march.max(points - after);
+                narrow = narrow.max(after);
+            }
+            held += 32 * (march + narrow);
         }
     }
     used as f64 / held.max(1) as f64
@@ -163,7 +172,7 @@ pub(crate) fn section_4_3(
     }
     let alone = rate(timing, device, &values, VALUES, VALUES_EACH * value)?;
     println!(
-        "Lanes: the part of them that march while the slowest of a block of 8 by 4 pixels does.\n"
+        "Lanes: the part of those of a block of 8 by 4 pixels that compute a value while any of them does.\n"
     );
     println!("| what | values a ray | operations a frame | ms | GFLOP/s | of the peak | lanes |");
     println!("|{}", "---|".repeat(7));
@@ -192,8 +201,9 @@ pub(crate) fn section_4_3(
             Ok(report.device_time)
         })?;
         let mut frames = Frames::new(&method, &scene)?;
-        let resident =
-            timing.least(|| Ok(frames.draw(&view, &Look::lit(&[]), &Progress::new())?))?;
+        let background = shaded::background(size);
+        let resident = timing
+            .least(|| Ok(frames.draw(&view, &look(&[], &background), &Progress::new())?))?;
         let operations = work.points as f64 * value + work.gradients as f64 * slope;
         for (what, time) in
             [("`amp-sign-gpu`", least), ("the same, a frame that stays there", resident)]
@@ -204,7 +214,10 @@ pub(crate) fn section_4_3(
                 work.points as f64 / (size * size) as f64,
                 1e3 * seconds
             );
-            let lanes = format!("{:.0} %", 100.0 * busy(&hits, [size, size]));
+            let lanes = format!(
+                "{:.0} %",
+                100.0 * busy(&hits, [size, size], method.twin.bisections.into())
+            );
             line(&format!("{what}{name}"), &cells, operations / seconds, &lanes);
         }
     }

@@ -2,15 +2,17 @@
 
 use std::time::Duration;
 
+use glam::Vec3;
 use zeroset::bench::{Sample, Tolerance, Truths, Verdict, judge, truth};
 use zeroset::cpu::amp::RootTest;
 use zeroset::cpu::{Amp, Bisection, Finishing, Stop};
-use zeroset::gpu::{AmpGpu, BisectionGpu, Frames, Look, Shadows};
+use zeroset::gpu::{AmpGpu, BisectionGpu, Frames, Look, Shadows, Surroundings};
 use zeroset::ia::Rounding;
 use zeroset::raycast::{
     Camera, Hits, Intersector, Method, Progress, RayBatch, Rays, Request, Scene, View, Work,
 };
-use zeroset::shade::{Light, ShadowRays, shaded};
+use zeroset::shade::shaded::{self, Palette};
+use zeroset::shade::{Light, ShadowRays};
 
 use crate::published::{TABLE_1, TABLE_2, TABLE_3};
 use crate::timing::Timing;
@@ -134,6 +136,13 @@ pub(crate) fn table_1(size: usize) -> Result<(), Failure> {
     Ok(())
 }
 
+/// The default colours under lights, without shadows.
+pub(crate) fn look<'a>(lights: &'a [(Vec3, f32)], background: &'a [[u8; 3]]) -> Look<'a> {
+    let Palette { front, back } = shaded::palette();
+    let surroundings = Surroundings::Rows(background);
+    Look { lights, shadows: Shadows::Off, front, back, surroundings }
+}
+
 /// Table 1 on the device: whole frames that stay there, by its clock.
 pub(crate) fn table_1_device(timing: &Timing, size: usize) -> Result<(), Failure> {
     println!("\n## Table 1, {size}x{size}, on the device\n");
@@ -148,13 +157,15 @@ pub(crate) fn table_1_device(timing: &Timing, size: usize) -> Result<(), Failure
     for (i, printed) in TABLE_1.iter().enumerate() {
         let scene = row(1, i + 1)?;
         let view = View::new(Camera::facing(&scene.domain), size, size);
-        let lights = [light(&view)];
+        let light = light(&view);
+        let lights = [(light.direction.normalize_or_zero(), light.strength)];
+        let background = shaded::background(size);
         let mut rates = Vec::new();
         for test in [RootTest::Sign, RootTest::Taylor] {
             let method = AmpGpu::new(test);
             let mut frames = Frames::new(&method, &scene)?;
             for shadows in [Shadows::Off, Shadows::On] {
-                let look = Look { shadows, ..Look::lit(&lights) };
+                let look = Look { shadows, ..look(&lights, &background) };
                 let time = timing.least(|| Ok(frames.draw(&view, &look, &Progress::new())?))?;
                 rates.push(1e3 / ms(time));
             }

@@ -33,7 +33,8 @@ impl Timing {
 
     /// On a device, which may be the processor.
     pub(crate) fn on(device: &Arc<Device>) -> Result<Self, Failure> {
-        if device.report().kind == "software" {
+        // Without a clock of its own, what the device waits for would be counted.
+        if device.report().kind == "software" || !device.report().timestamps {
             return Ok(Self::HERE);
         }
         let heater = Heater::new(device)?;

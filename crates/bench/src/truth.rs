@@ -205,6 +205,49 @@ mod tests {
         View::new(Camera::facing(&domain), width, height)
     }
 
+    /// Says of a ray where it is in the request, and counts what it is asked.
+    #[derive(Default)]
+    struct Index(Mutex<usize>);
+
+    impl Oracle for Index {
+        fn classify(
+            &self,
+            _: Rays<'_>,
+            indices: &[usize],
+            _: &Progress,
+        ) -> Result<Vec<Truth>, Error> {
+            *self.0.lock().unwrap() += indices.len();
+            let truth = |&i: &usize| Truth {
+                class: Class::None,
+                bracket: [i as f64; 2],
+                work: Work::default(),
+            };
+            Ok(indices.iter().map(truth).collect())
+        }
+    }
+
+    #[test]
+    fn what_is_remembered_is_asked_once() {
+        let oracle = Remembering::new(Index::default());
+        let view = view(4, 3);
+        let ask = |rays: Rays<'_>, indices: &[usize]| {
+            let truths = oracle.classify(rays, indices, &Progress::new()).unwrap();
+            truths.iter().map(|t| t.bracket[0] as usize).collect::<Vec<_>>()
+        };
+        let asked = || *oracle.oracle.0.lock().unwrap();
+        assert_eq!(ask(Rays::View(&view), &[2, 5]), [2, 5]);
+        assert_eq!(ask(Rays::View(&view), &[7, 5, 2, 0]), [7, 5, 2, 0]);
+        assert_eq!(asked(), 4);
+        // The same ray elsewhere is the same; in another range it is not.
+        let rays = vec![view.ray(1, 1), view.ray(3, 2)];
+        let batch = RayBatch { rays, range: Rays::View(&view).range() };
+        assert_eq!(ask(Rays::Batch(&batch), &[0, 1]), [5, 1]);
+        assert_eq!(asked(), 5);
+        let nearer = RayBatch { range: [0.0, 1.0], ..batch };
+        assert_eq!(ask(Rays::Batch(&nearer), &[0, 1]), [0, 1]);
+        assert_eq!(asked(), 7);
+    }
+
     #[test]
     fn samples_are_even_and_nested() {
         let view = view(7, 5);

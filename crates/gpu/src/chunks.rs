@@ -79,7 +79,8 @@ pub(crate) fn cast<T: Traffic>(
             hits.set(*index, *hit);
             work += hit.work;
         }
-        let count = ready.len() + answered.iter().map(Vec::len).sum::<usize>();
+        let marched = ready.len();
+        let count = marched + answered.iter().map(Vec::len).sum::<usize>();
         let mut waiting = ready;
         while !waiting.is_empty() {
             let sent: Vec<T::Sent> =
@@ -112,12 +113,16 @@ pub(crate) fn cast<T: Traffic>(
             // Between the rounds too, the work can be asked to stop.
             progress.advance(0)?;
         }
-        if start.elapsed() < CHUNK_TIME / 16 {
-            size = (8 * size).min(MOST);
-        } else if start.elapsed() < CHUNK_TIME / 2 {
-            size = (2 * size).min(MOST);
-        } else if start.elapsed() > CHUNK_TIME {
-            size = (size / 2).max(1);
+        // Rays that miss the domain take no time there; the next chunk may have none of them.
+        if marched > 0 {
+            let full = start.elapsed().mul_f64(count as f64 / marched as f64);
+            if full < CHUNK_TIME / 16 {
+                size = (8 * size).min(MOST);
+            } else if full < CHUNK_TIME / 2 {
+                size = (2 * size).min(MOST);
+            } else if full > CHUNK_TIME {
+                size = (size / 2).max(1);
+            }
         }
         progress.advance(count)?;
     }

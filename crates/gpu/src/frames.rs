@@ -9,9 +9,6 @@ use zeroset_cpu::Implicit;
 use zeroset_cpu::amp::{Amp, Settings};
 use zeroset_expr::{Parameters, Tape};
 use zeroset_raycast::{Camera, Error, Method, Progress, Projection, Scene, Unsupported, View};
-use zeroset_shade::environment::{BLUR, CLEAR, FACING, TILE};
-use zeroset_shade::shaded::{self, Palette};
-use zeroset_shade::{Environment, Light, Sky};
 
 use crate::amp::{AmpGpu, SentMarch, known, module};
 use crate::compiled::Compiled;
@@ -26,10 +23,7 @@ pub fn shader(amp: &Amp, tape: &Tape) -> Result<String, Unsupported> {
 }
 
 fn kernel(amp: &Amp) -> String {
-    let of_sky = format!(
-        "const FACING = {FACING:?};\nconst TILE = {TILE:?};\nconst CLEAR = {CLEAR:?};\nconst BLUR = {BLUR:?};\n"
-    );
-    known(amp) + &of_sky + KERNEL
+    known(amp) + KERNEL
 }
 
 const KERNEL: &str =
@@ -51,34 +45,58 @@ pub enum Shadows {
 /// What a frame looks like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look<'a> {
-    /// The lights; which pixels they do not reach is found out here.
-    pub lights: &'a [Light],
+    /// Unit vectors towards lights at infinity, and what a white surface that faces them reflects.
+    pub lights: &'a [(Vec3, f32)],
     /// Are shadow rays cast?
     pub shadows: Shadows,
-    /// The surface's colours.
-    pub palette: Palette,
-    /// What surrounds it.
-    pub environment: Environment,
+    /// The linear colour of the side that the gradient points out of.
+    pub front: Vec3,
+    /// The linear colour of the other side.
+    pub back: Vec3,
+    /// What is seen past the surface.
+    pub surroundings: Surroundings<'a>,
 }
 
-impl<'a> Look<'a> {
-    /// Under lights without shadows, as [`shaded::picture`] has it.
-    pub fn lit(lights: &'a [Light]) -> Self {
-        Self {
-            lights,
-            shadows: Shadows::Off,
-            palette: shaded::palette(),
-            environment: Environment::Plain,
-        }
-    }
+/// What surrounds a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surroundings<'a> {
+    /// Bytes encoded as sRGB, one colour a row, which nothing mirrors.
+    Rows(&'a [[u8; 3]]),
+    /// A sky over a chequered floor, with the lights as suns, which the surface mirrors.
+    Sky(Sky),
+}
+
+/// A sky over a chequered floor that is one unit below: linear colours, and where they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sky {
+    /// The zenith's direction, a unit vector.
+    pub up: Vec3,
+    /// The directions of the tiles' edges.
+    pub edges: [Vec3; 2],
+    /// Straight up.
+    pub zenith: Vec3,
+    /// Where sky and floor meet.
+    pub horizon: Vec3,
+    /// Light and dark.
+    pub tiles: [Vec3; 2],
+    /// A light's.
+    pub sun: Vec3,
+    /// The side of a tile.
+    pub tile: f32,
+    /// How far one sees before half of the contrast is lost in haze.
+    pub clear: f32,
+    /// The angle over which a direction is blurred, in radians.
+    pub blur: f32,
+    /// The share of the light that is mirrored where the surface faces the eye.
+    pub facing: f32,
 }
 
 /// Shaded frames by adaptive marching points, made on the device from the camera to the image
 /// (Algorithm 2 of \[singh2010\]): for animations, and for times as the paper has them.
 ///
 /// Rays are made in single precision, so a frame is a picture, not a set of answers: for those, and for
-/// cameras farther away than single precision resolves, cast with [`AmpGpu`]. It is lit, and mirrors what
-/// surrounds it, as [`shaded::picture`] has it.
+/// cameras farther away than single precision resolves, cast with [`AmpGpu`]. Surfaces are lit on both
+/// sides by Lambert's law, with a little ambient light from above, and mirror a sky.
 pub struct Frames {
     method: AmpGpu,
     implicit: Implicit,
@@ -131,31 +149,31 @@ struct SentSky {
     horizon: [f32; 4],
     tiles: [[f32; 4]; 2],
     sun: [f32; 4],
+    /// Side of a tile, clear, blur, facing.
+    numbers: [f32; 4],
 }
 
 impl SentSky {
-    fn new(view: &View, environment: Environment) -> Self {
+    /// Zeros where there is none.
+    fn new(surroundings: Surroundings<'_>) -> Self {
+        let Surroundings::Sky(sky) = surroundings else { return Self::zeroed() };
         let with = |v: Vec3, w: f32| v.extend(w).to_array();
-        let Sky { up, edges, zenith, horizon, tiles, sun } = Sky::new(view);
-        let is_seen = match environment {
-            Environment::Plain => 0.0,
-            Environment::Sky => 1.0,
-        };
         Self {
-            up: with(up, is_seen),
-            edges: edges.map(|edge| with(edge, 0.0)),
-            zenith: with(zenith, 0.0),
-            horizon: with(horizon, 0.0),
-            tiles: tiles.map(|tile| with(tile, 0.0)),
-            sun: with(sun, 0.0),
+            up: with(sky.up, 1.0),
+            edges: sky.edges.map(|edge| with(edge, 0.0)),
+            zenith: with(sky.zenith, 0.0),
+            horizon: with(sky.horizon, 0.0),
+            tiles: sky.tiles.map(|tile| with(tile, 0.0)),
+            sun: with(sky.sun, 0.0),
+            numbers: [sky.tile, sky.clear, sky.blur, sky.facing],
         }
     }
 }
 
 /// Pixels along the side of a workgroup's block.
 const BLOCK: usize = 8;
-/// Pixels of the first band of rows.
-const FIRST_BAND: usize = 1 << 20;
+/// Pixels of the first band of rows, and at most.
+const BAND: [usize; 2] = [1 << 18, 1 << 22];
 /// A band should take no longer: drivers reset a device that hangs, and one may want to stop.
 const BAND_TIME: Duration = Duration::from_millis(300);
 
@@ -175,7 +193,14 @@ impl Frames {
             Self { method, implicit, published_step, settings, compiled, canvas: None };
         // Drivers compile when a kernel first runs.
         let view = View::new(Camera::facing(&frames.implicit.domain), BLOCK, BLOCK);
-        frames.draw(&view, &Look::lit(&[]), &Progress::new())?;
+        let look = Look {
+            lights: &[],
+            shadows: Shadows::Off,
+            front: Vec3::ONE,
+            back: Vec3::ONE,
+            surroundings: Surroundings::Rows(&[[0; 3]; BLOCK]),
+        };
+        frames.draw(&view, &look, &Progress::new())?;
         frames.canvas = None;
         Ok(frames)
     }
@@ -198,6 +223,9 @@ impl Frames {
     /// # Errors
     /// If there are more than [`MOST_LIGHTS`] lights, the image is larger than a buffer may be, the
     /// device fails, or the work was asked to stop.
+    ///
+    /// # Panics
+    /// If there is not one colour a row.
     pub fn draw(
         &mut self,
         view: &View,
@@ -218,14 +246,16 @@ impl Frames {
             self.canvas = Some(self.canvas(size)?);
         }
         let canvas = self.canvas.as_ref().expect("made above");
-        let background: Vec<u32> = shaded::background(view.height)
-            .into_iter()
-            .map(|[r, g, b]| u32::from_le_bytes([r, g, b, 255]))
-            .collect();
-        device.write(&canvas.background, &background)?;
+        if let Surroundings::Rows(rows) = look.surroundings {
+            assert_eq!(rows.len(), view.height, "one colour a row");
+            let packed = |[r, g, b]: &[u8; 3]| u32::from_le_bytes([*r, *g, *b, 255]);
+            let rows: Vec<u32> = rows.iter().map(packed).collect();
+            device.write(&canvas.background, &rows)?;
+        }
         let columns = view.width.div_ceil(BLOCK);
         let mut sent = self.sent(view, look);
-        let mut rows = (FIRST_BAND / view.width).max(BLOCK).next_multiple_of(BLOCK);
+        let [first, most] = BAND.map(|pixels| (pixels / view.width).max(BLOCK));
+        let mut rows = first.next_multiple_of(BLOCK);
         let (mut row, mut total) = (0, None);
         while row < view.height {
             let end = (row + rows).min(view.height);
@@ -239,6 +269,8 @@ impl Frames {
             total = time.map(|time| time + total.unwrap_or_default());
             if start.elapsed() > BAND_TIME {
                 rows = (rows / 2).max(BLOCK).next_multiple_of(BLOCK);
+            } else if start.elapsed() < BAND_TIME / 16 {
+                rows = (8 * rows).min(most).next_multiple_of(BLOCK);
             }
             progress.advance((end - row) * view.width)?;
             row = end;
@@ -298,8 +330,8 @@ impl Frames {
         };
         let domain = &self.implicit.domain;
         let mut light = [[0.0; 4]; MOST_LIGHTS];
-        for (sent, light) in light.iter_mut().zip(look.lights) {
-            *sent = light.direction.normalize_or_zero().extend(light.strength).to_array();
+        for (sent, (direction, strength)) in light.iter_mut().zip(look.lights) {
+            *sent = direction.extend(*strength).to_array();
         }
         SentSettings {
             march: SentMarch::new(&self.settings),
@@ -309,15 +341,15 @@ impl Frames {
             up: with(extent * up, 0.0),
             low: with(domain.min, domain.ball.unwrap_or(0.0)),
             high: with(domain.max, domain.longest_side()),
-            front: look.palette.front.extend(0.0).to_array(),
-            back: look.palette.back.extend(0.0).to_array(),
+            front: look.front.extend(0.0).to_array(),
+            back: look.back.extend(0.0).to_array(),
             size: [view.width as u32, view.height as u32],
             rows: [0; 2],
             lights: look.lights.len() as u32,
             shadows: (look.shadows == Shadows::On).into(),
             longest: self.settings.longest as f32,
             unused: 0,
-            sky: SentSky::new(view, look.environment),
+            sky: SentSky::new(look.surroundings),
             light,
         }
     }

@@ -23,5 +23,5 @@ mod twin;
 pub use amp::AmpGpu;
 pub use bisection::BisectionGpu;
 pub use device::{AdapterReport, Choice, Device, DeviceError, adapters};
-pub use frames::{Frames, Look, MOST_LIGHTS, Shadows};
+pub use frames::{Frames, Look, MOST_LIGHTS, Shadows, Sky, Surroundings};
 pub use twin::OnDevice;

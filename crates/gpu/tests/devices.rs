@@ -5,15 +5,28 @@ mod adapter;
 use glam::{DVec3, Vec3};
 use zeroset_expr::{Function, Parameters};
 use zeroset_gpu::device::Binding;
-use zeroset_gpu::{AmpGpu, BisectionGpu, Choice, Device, DeviceError, Frames, Look, Shadows};
+use zeroset_gpu::{
+    AmpGpu, BisectionGpu, Choice, Device, DeviceError, Frames, Look, Shadows, Surroundings,
+};
 use zeroset_raycast::{
     Camera, Domain, Error, Hits, Method, Progress, Ray, RayBatch, Rays, Request, Scene, View,
 };
-use zeroset_shade::Light;
 
 fn scene(equation: &str) -> Scene {
     let domain = Domain::new(DVec3::splat(-2.0), DVec3::splat(2.0)).unwrap();
     Scene::new("scene", Function::parse(equation).unwrap(), domain)
+}
+
+const LIGHTS: [(Vec3, f32); 1] = [(Vec3::Z, 1.0)];
+
+fn look(background: &[[u8; 3]]) -> Look<'_> {
+    Look {
+        lights: &LIGHTS,
+        shadows: Shadows::On,
+        front: Vec3::ONE,
+        back: Vec3::ONE,
+        surroundings: Surroundings::Rows(background),
+    }
 }
 
 #[test]
@@ -63,10 +76,8 @@ fn a_lost_device_is_an_error_and_then_opened_anew() {
     };
     let before = count();
     assert!(before > 50);
-    let lights = [Light::new(Vec3::Z, 1.0)];
-    frames
-        .draw(&view, &Look { shadows: Shadows::On, ..Look::lit(&lights) }, &Progress::new())
-        .unwrap();
+    let background = [[9, 9, 9]; 32];
+    frames.draw(&view, &look(&background), &Progress::new()).unwrap();
     let pixels = frames.pixels().unwrap();
 
     let lost = Device::open(&choice).unwrap();
@@ -79,9 +90,7 @@ fn a_lost_device_is_an_error_and_then_opened_anew() {
     // Both mend themselves, and frames even if parameters are set first.
     frames.set_parameters(&Parameters::default()).unwrap();
     assert_eq!(count(), before);
-    frames
-        .draw(&view, &Look { shadows: Shadows::On, ..Look::lit(&lights) }, &Progress::new())
-        .unwrap();
+    frames.draw(&view, &look(&background), &Progress::new()).unwrap();
     assert_eq!(frames.pixels().unwrap(), pixels);
     assert!(!Device::open(&choice).unwrap().is_lost());
 }
@@ -116,11 +125,8 @@ fn large_and_empty_requests_are_cut_or_refused() {
     // An image that no buffer holds.
     let mut frames = Frames::new(&method, &scene).unwrap();
     let view = View::new(Camera::facing(&scene.domain), 1 << 20, 1 << 20);
-    let lights = [Light::new(Vec3::Z, 1.0)];
-    let error = frames
-        .draw(&view, &Look { shadows: Shadows::On, ..Look::lit(&lights) }, &Progress::new())
-        .unwrap_err()
-        .to_string();
+    let background = vec![[0; 3]; 1 << 20];
+    let error = frames.draw(&view, &look(&background), &Progress::new()).unwrap_err().to_string();
     assert!(error.contains("MiB"), "{error}");
     assert!(matches!(frames.pixels(), Err(Error::Device(_))));
     // Stopped work ends.

@@ -1,6 +1,7 @@
 //! Every shader is valid, whatever the surface: no device is needed to see it.
 
 use wgpu::naga;
+use zeroset_cpu::amp::Adaptation;
 use zeroset_cpu::{Amp, RootTest};
 use zeroset_expr::{Parameters, Tape};
 use zeroset_gpu::{amp, bisection, frames};
@@ -49,8 +50,13 @@ fn every_operation() -> Vec<(String, Tape)> {
 #[test]
 fn shaders_of_points_are_valid() {
     for (name, tape) in tapes().into_iter().chain(every_operation()) {
-        for test in [RootTest::Sign, RootTest::Taylor] {
-            let amp = Amp { test, ..Amp::default() };
+        let plain = Amp {
+            distance_adaptation: Adaptation::Off,
+            silhouette_adaptation: Adaptation::Off,
+            ..Amp::default()
+        };
+        let taylor = Amp { test: RootTest::Taylor, ..Amp::default() };
+        for amp in [plain, Amp::default(), taylor] {
             let [rays, frames] = [amp::shader(&amp, &tape), frames::shader(&amp, &tape)];
             for source in [rays, frames] {
                 validate(&source.unwrap()).unwrap_or_else(|e| panic!("{name}: {e}"));

@@ -46,7 +46,7 @@ mod text;
 pub use agreement::Agreement;
 pub use animation::Animation;
 pub use colour::Colour;
-pub use environment::{Environment, Sky};
+pub use environment::Environment;
 pub use error::ShadeError;
 pub use file::write_atomically;
 pub use kind::{ViewKind, picture, pictures};

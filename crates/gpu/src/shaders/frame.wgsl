@@ -1,6 +1,5 @@
 // A frame that stays on the device: rays of the camera, the march, shadow rays, Lambert's law, a sky that
-// is mirrored, the image. What is seen is as zeroset_shade has it, from which come the constants FACING,
-// TILE, CLEAR and BLUR of the sky.
+// is mirrored, the image. What is seen is as zeroset_shade has it.
 
 struct Settings {
     march: March,
@@ -33,6 +32,8 @@ struct Settings {
     horizon: vec4f,
     tiles: array<vec4f, 2>,
     sun: vec4f,
+    // Side of a tile, clear distance, blur, share that is mirrored where the surface faces the eye.
+    sky_numbers: vec4f,
     // Unit vectors towards lights; w: strength.
     light: array<vec4f, 8>,
 }
@@ -102,7 +103,7 @@ fn bytes(colour: vec3f) -> u32 {
     let curve = 1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055;
     let encoded = select(curve, 12.92 * c, c <= vec3f(0.0031308));
     let b = vec3u(floor(255.0 * encoded + 0.5));
-    return b.x | b.y << 8u | b.z << 16u | 0xff000000u;
+    return b.x | (b.y << 8u) | (b.z << 16u) | 0xff000000u;
 }
 
 // By the longest component first, so that squares neither overflow nor vanish.
@@ -122,11 +123,12 @@ fn stripes(x: f32, width: f32) -> f32 {
 // The floor, one unit below, where a direction reaches it.
 fn ground(direction: vec3f, depth: f32) -> vec3f {
     let distance = 1.0 / max(depth, 1e-4);
-    let blur = BLUR * distance * distance;
-    let a = stripes(dot(direction, settings.edges[0].xyz) * distance / TILE, blur / TILE);
-    let b = stripes(dot(direction, settings.edges[1].xyz) * distance / TILE, blur / TILE);
+    let tile = settings.sky_numbers.x;
+    let width = settings.sky_numbers.z * distance * distance / tile;
+    let a = stripes(dot(direction, settings.edges[0].xyz) * distance / tile, width);
+    let b = stripes(dot(direction, settings.edges[1].xyz) * distance / tile, width);
     let tiles = mix(settings.tiles[1].xyz, settings.tiles[0].xyz, 0.5 + 0.5 * a * b);
-    return mix(tiles, settings.horizon.xyz, 1.0 - exp2(-distance / CLEAR));
+    return mix(tiles, settings.horizon.xyz, 1.0 - exp2(-distance / settings.sky_numbers.y));
 }
 
 // A sun's disc and the glow around it, by the cosine of the angle from its centre.
@@ -147,7 +149,7 @@ fn sky(direction: vec3f, blocked: u32) -> vec3f {
     }
     for (var i = 0u; i < settings.lights; i++) {
         let source = settings.light[i];
-        if (blocked >> i & 1u) == 0u {
+        if ((blocked >> i) & 1u) == 0u {
             light += source.w * glow(dot(direction, source.xyz)) * settings.sun.xyz;
         }
     }
@@ -194,7 +196,8 @@ fn shade(direction: vec3f, p: vec3f, width: f32, distance: f32) -> u32 {
     let mirrored = sky(direction + 2.0 * cosine * normal, blocked);
     let past = 1.0 - clamp(cosine, 0.0, 1.0);
     let square = past * past;
-    return bytes(mix(own, mirrored, FACING + (1.0 - FACING) * square * square * past));
+    let facing = settings.sky_numbers.w;
+    return bytes(mix(own, mirrored, facing + (1.0 - facing) * square * square * past));
 }
 
 @compute @workgroup_size(64)
@@ -204,10 +207,10 @@ fn main(
     @builtin(local_invocation_index) local: u32,
 ) {
     // Eight by eight pixels a workgroup, so that rays side by side march together.
-    let tile = group.y * groups.x + group.x;
+    let block = group.y * groups.x + group.x;
     let columns = (settings.width + 7u) / 8u;
-    let x = tile % columns * 8u + local % 8u;
-    let y = settings.first_row + tile / columns * 8u + local / 8u;
+    let x = block % columns * 8u + local % 8u;
+    let y = settings.first_row + block / columns * 8u + local / 8u;
     if x >= settings.width || y >= settings.last_row {
         return;
     }
