@@ -123,7 +123,7 @@ impl MotionOptions {
         let [from, to] = [&track.from, &track.to]
             .map(|end| numbers::finite(end).expect("checked with the number of frames"));
         let share = frame as f64 / (track.frames - 1).max(1) as f64;
-        let camera = turned(&view.camera, from + (to - from) * share);
+        let camera = turned(&view.camera(), from + (to - from) * share);
         View::new(camera, view.width, view.height)
     }
 }

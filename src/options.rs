@@ -57,7 +57,7 @@ impl CameraOptions {
         } else {
             Err(Failure::usage(format!(
                 "rays of the camera {} start beyond single precision; make ortho smaller",
-                view.camera
+                view.camera()
             )))
         }
     }

@@ -1,4 +1,4 @@
-//! Fig. 4, 5, 6 and 9: settings, what they cost and what they lose.
+//! Fig. 4 to 7 and 9: settings, what they cost and what they lose.
 
 use std::path::Path;
 
@@ -35,8 +35,8 @@ impl Judged {
     /// In the default view, narrowed around its middle.
     fn zoomed(id: &str, size: usize, zoom: f64) -> Result<Self, Failure> {
         let scene = surface(id)?;
-        let mut view = View::new(Camera::facing(&scene.domain), size, size);
-        view.camera.projection = match view.camera.projection {
+        let facing = Camera::facing(&scene.domain);
+        let projection = match facing.projection {
             Projection::Perspective { fov } => {
                 let half = (0.5 * fov.to_radians()).tan() / zoom;
                 Projection::Perspective { fov: 2.0 * half.atan().to_degrees() }
@@ -45,6 +45,7 @@ impl Judged {
                 Projection::Orthographic { height: height / zoom }
             }
         };
+        let view = View::new(Camera { projection, ..facing }, size, size);
         let rays = Rays::View(&view);
         let sample = Sample::every(1, rays);
         let oracle = truth::reference(&scene)?;

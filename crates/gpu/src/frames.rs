@@ -322,9 +322,9 @@ impl Frames {
 
     fn sent(&self, view: &View, look: &Look<'_>) -> SentSettings {
         let with = |v: DVec3, w: f64| [v.x, v.y, v.z, w].map(|x| x as f32);
-        let [right, up, forward] = view.camera.frame();
+        let [right, up, forward] = view.camera().frame();
         let extent = view.extent();
-        let perspective = match view.camera.projection {
+        let perspective = match view.camera().projection {
             Projection::Perspective { .. } => 1.0,
             Projection::Orthographic { .. } => 0.0,
         };
@@ -335,7 +335,7 @@ impl Frames {
         }
         SentSettings {
             march: SentMarch::new(&self.settings),
-            eye: with(view.camera.eye, perspective),
+            eye: with(view.camera().eye, perspective),
             forward: with(forward, 0.0),
             right: with(extent * right, view.footprint(1.0)),
             up: with(extent * up, 0.0),

@@ -71,8 +71,7 @@ impl Display for Camera {
 /// A camera and the size of its image. Pixel (0, 0) is at the top left, its centre at (0.5, 0.5).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// The camera.
-    pub camera: Camera,
+    camera: Camera,
     /// Pixels in a row.
     pub width: usize,
     /// Rows.
@@ -90,6 +89,11 @@ impl View {
             Projection::Orthographic { height } => 0.5 * height,
         };
         Self { camera, width, height, frame: camera.frame(), extent }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> Camera {
+        self.camera
     }
 
     /// The ray through the centre of a pixel. Its direction is a unit vector before rounding to

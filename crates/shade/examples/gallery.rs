@@ -64,7 +64,7 @@ fn gradient(p: DVec3) -> DVec3 {
 
 fn cast(view: &View, domain: &Domain) -> (Hits, Vec<Agreement>) {
     let pixels = view.width * view.height;
-    let distance = view.camera.eye.distance(domain.centre());
+    let distance = view.camera().eye.distance(domain.centre());
     let mut hits = Hits::new(Request::FirstWithNormal, pixels);
     let mut agreement = vec![Agreement::CorrectMiss; pixels];
     for (i, agreement) in agreement.iter_mut().enumerate() {

@@ -84,7 +84,7 @@ impl Sky {
     /// The sky of a view: its zenith is where the camera's `up` points, so that it stays where it is
     /// when the camera's azimuth turns.
     pub fn new(view: &View) -> Self {
-        let up = view.camera.up.normalize_or(glam::DVec3::Z).as_vec3();
+        let up = view.camera().up.normalize_or(glam::DVec3::Z).as_vec3();
         let (a, b) = up.any_orthonormal_pair();
         Self {
             up,

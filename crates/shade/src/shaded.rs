@@ -30,7 +30,7 @@ impl Light {
 /// The default lights of a view: a strong one above and to the left of the eye, and a weak one at
 /// its right.
 pub fn lights(view: &View) -> Vec<Light> {
-    let [right, up, forward] = view.camera.frame().map(|v| v.as_vec3());
+    let [right, up, forward] = view.camera().frame().map(|v| v.as_vec3());
     vec![
         Light::new(-0.7 * right + 0.9 * up - 0.7 * forward, 0.88),
         Light::new(0.8 * right + 0.1 * up - 0.8 * forward, 0.12),
@@ -80,7 +80,7 @@ pub fn picture(
     for light in lights.iter().filter(|l| !l.blocked.is_empty()) {
         check_count(view, "blocked pixels", light.blocked.len())?;
     }
-    let up = view.camera.frame()[1].as_vec3();
+    let up = view.camera().frame()[1].as_vec3();
     let directions: Vec<Vec3> = lights.iter().map(|l| l.direction.normalize_or_zero()).collect();
     let Palette { front, back } = palette();
     let none = Colour::oklch(0.55, 0.0, 0.0).bytes();

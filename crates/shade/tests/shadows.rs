@@ -124,7 +124,7 @@ fn rays_start_off_the_surface_towards_the_light_and_only_where_it_shines() {
 fn the_offset_grows_with_the_bracket_and_shrinks_with_the_pixel() {
     let offset = |height: f64, width: f64| {
         let projection = Projection::Orthographic { height };
-        let view = View::new(Camera { projection, ..view().camera }, 240, 180);
+        let view = View::new(Camera { projection, ..view().camera() }, 240, 180);
         let mut hits = hits(&view);
         // The last pixel, on the plane.
         hits.bracket[240 * 180 - 1] = [10.0 - 0.5 * width, 10.0 + 0.5 * width];

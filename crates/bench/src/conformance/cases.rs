@@ -37,7 +37,7 @@ impl Suite<'_> {
         let domain = &self.scene.domain;
         let view = self.view();
         let through = through(domain);
-        let distance = (view.camera.eye - domain.centre()).length();
+        let distance = (view.camera().eye - domain.centre()).length();
         let seen: Vec<Ray> = (0..37).map(|column| view.ray(column, 14)).collect();
         let mut cases = vec![
             Case { name: "a view".into(), rays: Kind::View(view) },

@@ -166,7 +166,7 @@ impl Record {
             ..Self::default()
         };
         if let Rays::View(view) = rays {
-            shared.camera = view.camera.to_string();
+            shared.camera = view.camera().to_string();
             (shared.width, shared.height) = (view.width, view.height);
         }
         if let Some(truths) = &comparison.truths {
