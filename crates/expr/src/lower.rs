@@ -100,7 +100,10 @@ impl Lowering<'_> {
         let a = self.place(a)?;
         let op = match integer {
             Some(1) => return Ok(a),
-            Some(2) => Op::Sqr(a),
+            // Squares of squares, which x^2 and x^4 share where both are there.
+            Some(n @ (2 | 4 | 8)) => {
+                return Ok((0..n.ilog2()).fold(a, |power, _| self.push(Op::Sqr(power))));
+            }
             Some(n) => Op::Powi(a, prelude::exponent(n)?),
             None if half => Op::Unary(Unary::Sqrt, a),
             None => Op::Powc(a, self.constant(b)?),

@@ -24,6 +24,8 @@ fn common_parts_are_computed_once() {
         ("x + y", 1, 3),
         ("x^2 + y^2 + z^2 - 1", 6, 3),
         ("(x+y)^2 + sin(x+y) - (y+x)", 5, 3),
+        // Three squares, each of the one before.
+        ("x^8 + x^4 - x^2", 5, 3),
         // Three squares; their scaled forms, differences and product; the sum, offset and squared.
         (BARTH_SEXTIC, 18, 5),
         (KLEIN_BOTTLE, 18, 6),
@@ -62,6 +64,7 @@ fn constants_are_operands_of_the_cheapest_operation() {
         ("1 + x - pi + 2", vec![Op::Offset(0, 0)]),
         ("x^2", vec![Op::Sqr(0)]),
         ("x*x", vec![Op::Sqr(0)]),
+        ("x^4", vec![Op::Sqr(0), Op::Sqr(0)]),
         ("x^5", vec![Op::Powi(0, 5)]),
         ("x^-1", vec![Op::Powi(0, -1)]),
         ("x^0.5", vec![Op::Unary(zeroset_ia::Unary::Sqrt, 0)]),

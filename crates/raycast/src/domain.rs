@@ -163,24 +163,21 @@ impl Domain {
     }
 
     /// [`Clip::outer`] of each ray, the first end above the last where there is none: as
-    /// [`clip`](Self::clip) has it, but in loops that become vectors. The ends of a place without a ray mean
-    /// nothing.
-    ///
-    /// # Panics
-    /// If there are more than `N` rays.
+    /// [`clip`](Self::clip) has it, but in loops that become vectors. Rays are given by the components of
+    /// their origins and directions, which are numbers of single precision.
     #[inline(always)]
-    pub fn outer<const N: usize>(&self, rays: &[Ray], range: [f64; 2]) -> [[f64; N]; 2] {
-        let (mut o, mut d) = ([[0.0; N]; 3], [[0.0; N]; 3]);
-        for (i, ray) in rays.iter().enumerate() {
-            let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-            [o[0][i], o[1][i], o[2][i]] = [origin.x, origin.y, origin.z];
-            [d[0][i], d[1][i], d[2][i]] = [direction.x, direction.y, direction.z];
-        }
+    pub fn outer<const N: usize>(
+        &self,
+        origin: &[[f64; N]; 3],
+        direction: &[[f64; N]; 3],
+        range: [f64; 2],
+    ) -> [[f64; N]; 2] {
         let is_range = range[0] <= range[1];
         let [from, to] = if is_range { range } else { [f64::INFINITY, f64::NEG_INFINITY] };
         let (mut from, mut to) = ([from; N], [to; N]);
         for axis in 0..3 {
-            let (o, d, min, max) = (&o[axis], &d[axis], self.min[axis], self.max[axis]);
+            let (o, d, min, max) =
+                (&origin[axis], &direction[axis], self.min[axis], self.max[axis]);
             for i in 0..N {
                 let Crossing { enter, leave } = Crossing::new(o[i], d[i], min, max);
                 from[i] = larger(from[i], enter[0]);
@@ -188,8 +185,10 @@ impl Domain {
             }
         }
         if let Some(radius) = self.ball {
-            for (i, ray) in rays.iter().enumerate() {
-                let Crossing { enter, leave } = self.chord(*ray, radius);
+            for i in 0..N {
+                let [o, d] = [origin, direction].map(|v| DVec3::new(v[0][i], v[1][i], v[2][i]));
+                let Crossing { enter, leave } =
+                    self.chord(Ray::new(o.as_vec3(), d.as_vec3()), radius);
                 from[i] = larger(from[i], enter[0]);
                 to[i] = smaller(to[i], leave[1]);
             }

@@ -39,9 +39,12 @@ fn holds(domain: &Domain, ray: Ray, t: f64) -> bool {
 fn judge(domain: &Domain, ray: Ray, range: [f64; 2], places: &[f64]) {
     let clip = domain.clip(ray, range);
     // Of many rays at once, the same bits.
-    let mut rays = [Ray { origin: ray.direction, direction: ray.origin }; 3];
+    let mut rays = [Ray { origin: ray.direction, direction: ray.origin }; 4];
     rays[1] = ray;
-    let [from, to] = domain.outer::<4>(&rays, range);
+    let components = |part: fn(&Ray) -> Vec3| {
+        [0, 1, 2].map(|axis| rays.each_ref().map(|ray| f64::from(part(ray)[axis])))
+    };
+    let [from, to] = domain.outer(&components(|r| r.origin), &components(|r| r.direction), range);
     let outer = (from[1] <= to[1]).then_some([from[1], to[1]]);
     assert_eq!(outer.map(|ends| ends.map(f64::to_bits)), clip.map(|c| c.outer.map(f64::to_bits)));
     let mut places: Vec<f64> = places.to_vec();

@@ -59,8 +59,8 @@ impl Judge for Answers<'_> {
         next.map_or(Verdict::Stop, |t| Verdict::Continue(clock.q(t)))
     }
 
-    fn finished(&mut self, marcher: &Marcher, dropped: bool, work: Work) {
-        let hit = &mut self.hits[marcher.ray];
+    fn finished(&mut self, ray: usize, dropped: bool, work: Work) {
+        let hit = &mut self.hits[ray];
         hit.work += work;
         if dropped && !hit.certificate.is_hit() {
             hit.certificate = Certificate::MISS;

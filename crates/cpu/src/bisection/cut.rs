@@ -43,8 +43,6 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    pub(super) const COUNT: usize = 6;
-
     /// The dominant axis of a direction and its sign.
     #[inline(always)]
     pub(super) fn of(ray: Ray) -> Self {
@@ -57,6 +55,20 @@ impl Axis {
             2
         };
         Self { k, forward: ray.direction[k] > 0.0 }
+    }
+
+    /// The same for many directions, in a loop that becomes vectors.
+    #[inline(always)]
+    pub(super) fn of_all<const N: usize>(direction: &[[f64; N]; 3]) -> [Self; N] {
+        let [x, y, z] = direction;
+        // 2 k, and 1 more if it increases.
+        let mut codes = [0_u64; N];
+        for i in 0..N {
+            let [dx, dy, dz] = [x[i].abs(), y[i].abs(), z[i].abs()];
+            let rest = if dy >= dz { 2 + u64::from(y[i] > 0.0) } else { 4 + u64::from(z[i] > 0.0) };
+            codes[i] = if dx >= dy && dx >= dz { u64::from(x[i] > 0.0) } else { rest };
+        }
+        codes.map(|code| Self { k: (code >> 1) as usize, forward: code & 1 == 1 })
     }
 
     /// K, and U and V in cyclic order.

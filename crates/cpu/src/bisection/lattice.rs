@@ -15,9 +15,9 @@ use zeroset_expr::Evaluator;
 use zeroset_ia::interval::Flavor;
 use zeroset_ia::{Interval, Packet, Plain, Real, Scalar};
 
+use super::bundle::Few;
 use super::clock::{TINY, UNITS_8};
 use super::cut::{Axis, Bounds, Cut, Cutting};
-use super::march::Marcher;
 
 /// The two ends of `x` with an error up to `e`, as numbers of the scalar type; for a nearest type,
 /// `x` twice. What is unknown is unbounded.
@@ -82,32 +82,22 @@ pub(super) struct Boundary<R: Real> {
 }
 
 impl<R: Packet, C: Cutting> Lattice<R, C> {
-    /// The lattice of at most as many rays as there are lanes; other lanes repeat the last one.
+    /// The lattice of at most as many rays as there are lanes; other lanes have one, too.
     ///
     /// In units of u = 2^-53, the errors are: `t0 = (start - o_K) / d_K`, 3 t0 (for a ray's own pieces
     /// t0 is exact); `u0 = o_U + t0 d_U`, 4 t0 d_U + u0, and 1 for its ends; `s = d_U / |d_K|`, 2 s and
     /// 1; `q = (t - t0) |d_K|`, 3 t0 |d_K| + 2 q and 1. Each is less than 8 times the sum of absolute
     /// values below.
     #[inline(always)]
-    pub(super) fn new(zero: R, cut: Cut, bounds: &Bounds, packet: &[Marcher]) -> Self {
+    pub(super) fn new(zero: R, cut: Cut, bounds: &Bounds, packet: Few<'_>) -> Self {
         let axes = match cut {
             Cut::Slabs(axis) => axis.all(),
             Cut::Rays => [0, 1, 2],
         };
-        // By axis; what follows is by place.
-        let mut o = [[0.0_f64; 64]; 3];
-        let mut d = [[1.0_f64; 64]; 3];
-        let mut t = [[0.0_f64; 64]; 2];
-        for i in 0..R::LANES {
-            let Marcher { line, range, .. } = &packet[i.min(packet.len() - 1)];
-            let (origin, direction) = (line.origin.as_dvec3(), line.direction.as_dvec3());
-            [o[0][i], o[1][i], o[2][i]] = origin.to_array();
-            [d[0][i], d[1][i], d[2][i]] = direction.to_array();
-            t[0][i] = range[0];
-            t[1][i] = range[1];
-        }
-        let [k, u, v] = axes;
-        let (o, d) = ([&o[k], &o[u], &o[v]], [&d[k], &d[u], &d[v]]);
+        // By place, as all that follows.
+        let o = axes.map(|axis| packet.lanes(|bundle| &bundle.origin[axis], R::LANES));
+        let d = axes.map(|axis| packet.lanes(|bundle| &bundle.direction[axis], R::LANES));
+        let t = [0, 1].map(|end| packet.lanes(|bundle| &bundle.range[end], R::LANES));
         let (start, length, first) = match cut {
             Cut::Slabs(axis) => (bounds.start(axis), bounds.length(axis), 1),
             Cut::Rays => (0.0, 0.0, 0),
@@ -321,8 +311,10 @@ mod tests {
     use proptest::prelude::*;
     use zeroset_raycast::{Domain, Ray};
 
+    use super::super::bundle::{Bundle, SIZE};
     use super::super::clock::Clock;
     use super::super::cut::{Rays, Slabs};
+    use super::super::march::Marcher;
     use super::*;
 
     type Q = BigRational;
@@ -386,9 +378,13 @@ mod tests {
                 None => return Ok(()),
             },
         };
-        let marcher = Marcher { ray: 0, line: ray, range, depth };
+        let mut bundle = Bundle::new();
+        bundle.clip(&[ray], 0, domain, range);
+        bundle.range = [[range[0]; SIZE], [range[1]; SIZE]];
+        let packet = bundle.packets(1).next().expect("it has a ray");
+        let marcher = packet.marcher(0);
         let zero = S::from_f64(0.0);
-        let lattice = Lattice::<S, C>::new(zero, cut, &bounds, &[marcher]);
+        let lattice = Lattice::<S, C>::new(zero, cut, &bounds, packet);
         let index = (place * 2.0_f64.powi(depth as i32)) as u64;
         let (near, far) = (lattice.boundary(index, depth), lattice.boundary(index + 1, depth));
         // The same boundary at the next depth.
@@ -453,7 +449,7 @@ mod tests {
         let axis = Axis { k: 0, forward: true };
         let ray = Ray::new(Vec3::ZERO, Vec3::new(1e-45, 0.0, 0.0));
         let range = [1e300, f64::MAX];
-        let marcher = Marcher { ray: 0, line: ray, range, depth: 0 };
+        let marcher = Marcher { ray: 0, line: ray, range };
         let far = Domain::new(DVec3::splat(1e300), DVec3::splat(2e300)).expect("a box");
         let bounds = Bounds::new::<f64>(&far);
         for cut in [Cut::Slabs(axis), Cut::Rays] {

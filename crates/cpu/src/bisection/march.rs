@@ -5,6 +5,7 @@ use zeroset_ia::interval::Flavor;
 use zeroset_ia::{Interval, Kernel, Packet, Pair, Raw, Scalar, Set};
 use zeroset_raycast::{Ray, Work};
 
+use super::bundle::{Bundle, Few};
 use super::cut::{Bounds, Cut, Cutting, Rays, Slabs};
 use super::lattice::Lattice;
 use super::method::Poles;
@@ -28,8 +29,6 @@ pub(super) struct Marcher {
     pub line: Ray,
     /// The range of t that contains all that count.
     pub range: [f64; 2],
-    /// Pieces are bisected this often before they count as hit.
-    pub depth: u32,
 }
 
 /// What becomes of a piece that is bisected no further.
@@ -64,8 +63,8 @@ pub(super) trait Judge {
         reason: Reason,
         dropped: bool,
     ) -> Verdict;
-    /// The march has ended for a ray, with or without an answer.
-    fn finished(&mut self, marcher: &Marcher, dropped: bool, work: Work);
+    /// The march has ended for the ray of this index, with or without an answer.
+    fn finished(&mut self, ray: usize, dropped: bool, work: Work);
 }
 
 /// The march of a tile's rays, grouped by what they are cut by.
@@ -79,7 +78,7 @@ pub(super) struct March<'a, J> {
     /// Enclosures of values narrower than this count as hit.
     pub delta: f64,
     pub poles: Poles,
-    pub groups: &'a [(Cut, Vec<Marcher>)],
+    pub groups: &'a [(Cut, Vec<Bundle>)],
     pub judge: &'a mut J,
 }
 
@@ -92,8 +91,8 @@ impl<J: Judge> March<'_, J> {
             .slope
             .map(|(slope, refining)| Monotone::<R, F>::new(self.tape, slope, refining, zero));
         let limits = Limits { first: self.first, delta: self.delta, poles: self.poles };
-        for (cut, marchers) in self.groups {
-            for packet in marchers.chunks(R::LANES) {
+        for (cut, bundles) in self.groups {
+            for packet in bundles.iter().flat_map(|bundle| bundle.packets(R::LANES)) {
                 match cut {
                     Cut::Slabs(_) => {
                         let lattice = Lattice::<R, Slabs>::new(zero, *cut, self.bounds, packet);
@@ -178,7 +177,7 @@ fn march<R: Packet, F: Flavor, C: Cutting>(
     mut lattice: Lattice<R, C>,
     cut: Cut,
     Limits { first, delta, poles }: Limits,
-    packet: &[Marcher],
+    packet: Few<'_>,
     test: &mut impl Test<R, C>,
     judge: &mut impl Judge,
 ) {
@@ -190,8 +189,8 @@ fn march<R: Packet, F: Flavor, C: Cutting>(
     let mut last = [0_u64; MAX_DEPTH as usize + 1];
     // Run by run, since rays mostly share their depth, and one lane's store would wait for the other's.
     let mut from = 0;
-    for run in packet.chunk_by(|a, b| a.depth == b.depth) {
-        last[run[0].depth as usize] |= lanes(run.len()) << from;
+    for run in packet.depths().chunk_by(|a, b| a == b) {
+        last[run[0] as usize] |= lanes(run.len()) << from;
         from += run.len();
     }
     let mut alive = lanes(packet.len());
@@ -247,7 +246,7 @@ fn march<R: Packet, F: Flavor, C: Cutting>(
                     let piece = found.piece.map(|q| q.lane(lane as usize).to_f64());
                     let root = found.proven >> lane & 1 == 1;
                     let reason = if root { Reason::Root } else { Reason::Crossing };
-                    let marcher = &packet[lane as usize];
+                    let marcher = &packet.marcher(lane as usize);
                     match judge.reached(cut, marcher, piece, reason, dropped >> lane & 1 == 1) {
                         Verdict::Stop => alive &= !(1 << lane),
                         Verdict::Continue(q) => lattice.skip(1 << lane, q),
@@ -259,7 +258,7 @@ fn march<R: Packet, F: Flavor, C: Cutting>(
             while reached != 0 {
                 let lane = reached.trailing_zeros();
                 reached &= reached - 1;
-                let marcher = &packet[lane as usize];
+                let marcher = &packet.marcher(lane as usize);
                 let piece = [near.q, far.q].map(|q| q.lane(lane as usize).to_f64());
                 match judge.reached(cut, marcher, piece, Reason::Small, dropped >> lane & 1 == 1) {
                     Verdict::Stop => alive &= !(1 << lane),
@@ -284,10 +283,10 @@ fn march<R: Packet, F: Flavor, C: Cutting>(
         alive &= lattice.goes_on_at(&far);
         near = far;
     }
-    for (lane, marcher) in packet.iter().enumerate() {
+    for lane in 0..packet.len() {
         let intervals = evaluations.lane(lane).to_f64() as u64;
         let mut work = Work { intervals, ..Work::default() };
         work += test.work(lane);
-        judge.finished(marcher, dropped >> lane & 1 == 1, work);
+        judge.finished(packet.ray(lane), dropped >> lane & 1 == 1, work);
     }
 }

@@ -10,11 +10,12 @@
 //! | [`Tbisect`](Algorithm::Tbisect) | parts of each ray's own range of t | they are small |
 //! | [`Mitchell`](Algorithm::Mitchell) | the same | F is monotone there: then without intervals |
 //!
-//! `cut`, `clock` and `lattice` have the geometry, `march` the traversal, `monotone` Mitchell's test, `finish` the proofs,
-//! `settler` what they make of a piece.
+//! `bundle` has the rays, `cut`, `clock` and `lattice` the geometry, `march` the traversal, `monotone` Mitchell's
+//! test, `finish` the proofs, `settler` what they make of a piece.
 //! Departures from the paper are listed in `docs/deviations.md`.
 
 mod answers;
+mod bundle;
 mod clock;
 mod cut;
 mod finish;

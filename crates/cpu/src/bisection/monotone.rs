@@ -8,9 +8,10 @@ use zeroset_ia::interval::Flavor;
 use zeroset_ia::{Interval, Packet, Plain, Scalar};
 use zeroset_raycast::Work;
 
+use super::bundle::Few;
 use super::cut::Rays;
 use super::lattice::{Boundary, Lattice};
-use super::march::{MAX_DEPTH, Marcher};
+use super::march::MAX_DEPTH;
 
 /// What happens to a piece on which the function is monotone and changes its sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +29,7 @@ pub(super) struct Piece<'a, R: Packet, C> {
     /// The lanes in which the function may vanish and is bounded.
     pub mask: u64,
     pub depth: u32,
-    pub packet: &'a [Marcher],
+    pub packet: Few<'a>,
 }
 
 /// A test of pieces in which the function may vanish, before they are bisected.
@@ -193,8 +194,8 @@ impl<'a, R: Packet, F: Flavor> Monotone<'a, R, F> {
         let zero = lattice.zero();
         let half = zero.splat(R::Scalar::from_f64(0.5));
         let mut ending = [0_u64; MAX_DEPTH as usize + 1];
-        for (lane, marcher) in packet.iter().enumerate() {
-            ending[marcher.depth as usize] |= 1 << lane;
+        for (lane, depth) in packet.depths().iter().enumerate() {
+            ending[*depth as usize] |= 1 << lane;
         }
         let mut active = crossing;
         for done in &ending[depth as usize..] {

@@ -5,17 +5,15 @@ use zeroset_ia::{Isa, Kernel, Nearest, Rounding, dispatch, dispatch_register, wi
 use zeroset_raycast::{Error, Hit, Hits, Intersector, Method, Progress, Ray, Rays, Report, Scene};
 
 use super::answers::Answers;
+use super::bundle::{self, Bundle};
 use super::cut::{Axis, Cut};
 use super::form::{Form, Numbers};
-use super::march::{FIRST, MAX_DEPTH, March, Marcher, RawPairs, RawVectors, SetVectors};
+use super::march::{FIRST, MAX_DEPTH, March, RawPairs, RawVectors, SetVectors};
 use super::method::{Algorithm, Bisection, Finishing, Packets, Stop};
 use super::monotone::Refining;
 use super::settler::{Goal, bisections};
 use crate::implicit::Implicit;
 use crate::{normals, tiles};
-
-/// How many rays are clipped to the domain at once.
-const CLIPPED: usize = 32;
 
 pub(super) struct Prepared {
     method: Bisection,
@@ -101,54 +99,115 @@ impl Prepared {
 
     /// The rays that meet the domain, by what they are cut by.
     #[inline(always)]
-    fn groups(&self, rays: &[Ray], goal: &Goal) -> Vec<(Cut, Vec<Marcher>)> {
-        let mut groups: Vec<(Cut, Vec<Marcher>)> = Vec::with_capacity(Axis::COUNT);
-        let mut last = 0;
-        for (block, lines) in rays.chunks(CLIPPED).enumerate() {
-            let [from, to] = self.implicit.domain.outer::<CLIPPED>(lines, goal.range);
-            for (i, line) in lines.iter().enumerate() {
-                let range = [from[i], to[i]];
-                if range[0] > range[1] {
-                    continue;
-                }
-                let axis = Axis::of(*line);
-                let cut = match self.method.algorithm {
-                    Algorithm::Kmarch => Cut::Slabs(axis),
-                    Algorithm::Tbisect | Algorithm::Mitchell => Cut::Rays,
-                };
-                // Neighbours mostly share their axis.
-                if groups.get(last).is_none_or(|(a, _)| *a != cut) {
-                    last = groups.iter().position(|(a, _)| *a == cut).unwrap_or_else(|| {
-                        groups.push((cut, Vec::with_capacity(rays.len())));
-                        groups.len() - 1
-                    });
-                }
-                let depth = self.depth(*line, axis, cut, range, goal);
-                let ray = CLIPPED * block + i;
-                groups[last].1.push(Marcher { ray, line: *line, range, depth });
+    fn groups(&self, rays: &[Ray], goal: &Goal) -> Vec<(Cut, Vec<Bundle>)> {
+        let mut groups = Groups::default();
+        let mut bundle = Bundle::new();
+        for (block, lines) in rays.chunks(bundle::SIZE).enumerate() {
+            bundle.clip(lines, block * bundle::SIZE, &self.implicit.domain, goal.range);
+            let axes = Axis::of_all(&bundle.direction);
+            let [from, to] = &bundle.range;
+            // Neighbours mostly meet the domain together, and share their axis. The places behind the
+            // last repeat it.
+            let (mut all, mut same) = (true, true);
+            for i in 0..bundle::SIZE {
+                all &= from[i] <= to[i];
+                same &= axes[i] == axes[0];
             }
+            if all && (same || self.method.algorithm != Algorithm::Kmarch) {
+                groups.add(self.cut(axes[0]), &bundle);
+            } else {
+                for i in (0..lines.len()).filter(|i| from[*i] <= to[*i]) {
+                    groups.push(self.cut(axes[i]), &bundle, i);
+                }
+            }
+        }
+        let mut groups = groups.finished();
+        for (cut, bundles) in &mut groups {
+            bundles.iter_mut().for_each(|bundle| self.deepen(*cut, bundle, goal));
         }
         groups
     }
 
-    /// How often the pieces of a ray are bisected.
+    /// What a ray with this dominant axis is cut by.
+    fn cut(&self, axis: Axis) -> Cut {
+        match self.method.algorithm {
+            Algorithm::Kmarch => Cut::Slabs(axis),
+            Algorithm::Tbisect | Algorithm::Mitchell => Cut::Rays,
+        }
+    }
+
+    /// Sets how often the pieces of each ray are bisected.
     #[inline(always)]
-    fn depth(&self, line: Ray, axis: Axis, cut: Cut, range: [f64; 2], goal: &Goal) -> u32 {
+    fn deepen(&self, cut: Cut, bundle: &mut Bundle, goal: &Goal) {
         let bounds = &self.form.bounds;
-        let speed = f64::from(line.direction[axis.k]).abs();
-        // What is bisected, in q.
-        let length = match cut {
-            Cut::Slabs(axis) => bounds.length(axis),
-            Cut::Rays => (range[1] - range[0]) * speed,
-        };
         let least = first(goal.stop);
-        let depth = goal.depth(&self.method, length, speed);
-        // Pieces finer than the rounding of coordinates gain nothing.
-        let finest = match cut {
-            Cut::Slabs(axis) => bounds.finest(axis.k),
-            Cut::Rays => bisections(length, bounds.resolution()),
+        for i in 0..bundle.len() {
+            let [x, y, z] = [0, 1, 2].map(|axis| bundle.direction[axis][i].abs());
+            let speed = x.max(y).max(z);
+            // What is bisected, in q, and what gains nothing: pieces finer than coordinates are rounded.
+            let (depth, finest) = match cut {
+                Cut::Slabs(axis) => {
+                    let depth = goal.depth(&self.method, bounds.length(axis), speed);
+                    (depth, bounds.finest(axis.k))
+                }
+                Cut::Rays => {
+                    let length = (bundle.range[1][i] - bundle.range[0][i]) * speed;
+                    let depth = goal.depth(&self.method, length, speed);
+                    (depth, bisections(length, bounds.resolution()))
+                }
+            };
+            bundle.depth[i] = depth.min(finest).min(MAX_DEPTH).max(least);
+        }
+    }
+}
+
+/// Bundles by what their rays are cut by.
+#[derive(Default)]
+struct Groups(Vec<Group>);
+
+struct Group {
+    cut: Cut,
+    done: Vec<Bundle>,
+    /// There is room in it.
+    open: Bundle,
+}
+
+impl Groups {
+    #[inline(always)]
+    fn of(&mut self, cut: Cut) -> &mut Group {
+        let known = self.0.iter().position(|group| group.cut == cut);
+        let place = known.unwrap_or_else(|| {
+            self.0.push(Group { cut, done: Vec::new(), open: Bundle::new() });
+            self.0.len() - 1
+        });
+        &mut self.0[place]
+    }
+
+    /// Adds a whole bundle.
+    #[inline(always)]
+    fn add(&mut self, cut: Cut, bundle: &Bundle) {
+        self.of(cut).done.push(bundle.clone());
+    }
+
+    /// Adds a ray of a bundle.
+    #[inline(always)]
+    fn push(&mut self, cut: Cut, bundle: &Bundle, i: usize) {
+        let group = self.of(cut);
+        group.open.push(bundle, i);
+        if group.open.len() == bundle::SIZE {
+            group.done.push(std::mem::replace(&mut group.open, Bundle::new()));
+        }
+    }
+
+    fn finished(self) -> Vec<(Cut, Vec<Bundle>)> {
+        let finish = |Group { cut, mut done, mut open }: Group| {
+            if open.len() > 0 {
+                open.fill();
+                done.push(open);
+            }
+            (cut, done)
         };
-        depth.min(finest).min(MAX_DEPTH).max(least)
+        self.0.into_iter().map(finish).collect()
     }
 }
 
