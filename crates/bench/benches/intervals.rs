@@ -53,7 +53,6 @@ fn translate(tape: &Tape, context: &mut Context) -> Node {
             Op::Scale(a, c) => context.mul(at(a), constant(c)),
             Op::Offset(a, c) => context.add(at(a), constant(c)),
             Op::Sqr(a) => context.square(at(a)),
-            Op::Powi(a, 4) => context.square(at(a)).and_then(|square| context.square(square)),
             op => panic!("{op:?} is in neither surface"),
         };
         registers.insert(instruction.out, node.expect("a node of this context"));

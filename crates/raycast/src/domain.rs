@@ -187,6 +187,7 @@ impl Domain {
         if let Some(radius) = self.ball {
             for i in 0..N {
                 let [o, d] = [origin, direction].map(|v| DVec3::new(v[0][i], v[1][i], v[2][i]));
+                debug_assert!(o.as_vec3().as_dvec3() == o && d.as_vec3().as_dvec3() == d);
                 let Crossing { enter, leave } =
                     self.chord(Ray::new(o.as_vec3(), d.as_vec3()), radius);
                 from[i] = larger(from[i], enter[0]);

@@ -38,7 +38,8 @@ impl Bundle {
     }
 
     /// Takes neighbours in a tile, the first at this index, in place of its rays, and clips them to the
-    /// domain: where a range ends before it starts, there is none. The places behind the last repeat it.
+    /// domain: where a range ends before it starts, there is none. The places behind the last repeat
+    /// its geometry.
     ///
     /// # Panics
     /// If there are none, or more than [`SIZE`].
@@ -87,11 +88,11 @@ impl Bundle {
         self.count += 1;
     }
 
-    /// Lets the places behind the last ray repeat it.
+    /// Lets the places behind the last ray repeat its geometry.
+    #[inline(always)]
     pub(super) fn fill(&mut self) {
         for place in self.count.max(1)..SIZE {
             let last = self.count.max(1) - 1;
-            self.rays[place] = self.rays[last];
             for axis in 0..3 {
                 self.origin[axis][place] = self.origin[axis][last];
                 self.direction[axis][place] = self.direction[axis][last];
@@ -99,7 +100,6 @@ impl Bundle {
             for end in 0..2 {
                 self.range[end][place] = self.range[end][last];
             }
-            self.depth[place] = self.depth[last];
         }
     }
 

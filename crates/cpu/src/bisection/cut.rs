@@ -46,15 +46,8 @@ impl Axis {
     /// The dominant axis of a direction and its sign.
     #[inline(always)]
     pub(super) fn of(ray: Ray) -> Self {
-        let d = ray.direction.abs();
-        let k = if d.x >= d.y && d.x >= d.z {
-            0
-        } else if d.y >= d.z {
-            1
-        } else {
-            2
-        };
-        Self { k, forward: ray.direction[k] > 0.0 }
+        let [axis] = Self::of_all(&ray.direction.to_array().map(|x| [f64::from(x)]));
+        axis
     }
 
     /// The same for many directions, in a loop that becomes vectors.

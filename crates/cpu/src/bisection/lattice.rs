@@ -15,7 +15,7 @@ use zeroset_expr::Evaluator;
 use zeroset_ia::interval::Flavor;
 use zeroset_ia::{Interval, Packet, Plain, Real, Scalar};
 
-use super::bundle::Few;
+use super::bundle::{Few, SIZE};
 use super::clock::{TINY, UNITS_8};
 use super::cut::{Axis, Bounds, Cut, Cutting};
 
@@ -104,7 +104,7 @@ impl<R: Packet, C: Cutting> Lattice<R, C> {
         };
         // t where q = 0, and the direction's component along the dominant axis. Loops without branches,
         // which the compiler turns into vectors.
-        let (mut t0, mut along) = ([0.0_f64; 64], [0.0_f64; 64]);
+        let (mut t0, mut along) = ([0.0_f64; SIZE], [0.0_f64; SIZE]);
         match cut {
             Cut::Slabs(_) => {
                 for i in 0..R::LANES {
@@ -121,7 +121,7 @@ impl<R: Packet, C: Cutting> Lattice<R, C> {
                 }
             }
         }
-        let zeros = [[R::Scalar::from_f64(0.0); 64]; 2];
+        let zeros = [[R::Scalar::from_f64(0.0); SIZE]; 2];
         let (mut origin, mut slope, mut range) = ([zeros; 3], [zeros; 3], zeros);
         for place in first..3 {
             let [origin_lo, origin_hi] = &mut origin[place];
@@ -291,12 +291,12 @@ impl<R: Packet, C: Cutting> Lattice<R, C> {
 }
 
 #[inline(always)]
-fn both<R: Packet>(zero: R, x: &[[R::Scalar; 64]; 2]) -> [R; 2] {
+fn both<R: Packet>(zero: R, x: &[[R::Scalar; SIZE]; 2]) -> [R; 2] {
     [lanes(zero, &x[0]), lanes(zero, &x[1])]
 }
 
 #[inline(always)]
-fn lanes<R: Packet>(zero: R, x: &[R::Scalar; 64]) -> R {
+fn lanes<R: Packet>(zero: R, x: &[R::Scalar; SIZE]) -> R {
     zero.from_fn(
         #[inline(always)]
         |i| x[i],
@@ -311,7 +311,7 @@ mod tests {
     use proptest::prelude::*;
     use zeroset_raycast::{Domain, Ray};
 
-    use super::super::bundle::{Bundle, SIZE};
+    use super::super::bundle::Bundle;
     use super::super::clock::Clock;
     use super::super::cut::{Rays, Slabs};
     use super::super::march::Marcher;

@@ -5,7 +5,7 @@ use zeroset_ia::interval::Flavor;
 use zeroset_ia::{Interval, Kernel, Packet, Pair, Raw, Scalar, Set};
 use zeroset_raycast::{Ray, Work};
 
-use super::bundle::{Bundle, Few};
+use super::bundle::{self, Bundle, Few};
 use super::cut::{Bounds, Cut, Cutting, Rays, Slabs};
 use super::lattice::Lattice;
 use super::method::Poles;
@@ -86,6 +86,7 @@ impl<J: Judge> March<'_, J> {
     /// Marches every group, a packet at a time.
     #[inline(always)]
     fn run<R: Packet, F: Flavor>(self, zero: R) {
+        const { assert!(bundle::SIZE.is_multiple_of(R::LANES), "packets divide bundles") };
         let mut evaluator = self.tape.evaluator(&Interval::<R, F>::point(zero));
         let mut monotone = self
             .slope

@@ -123,12 +123,15 @@ impl Prepared {
         }
         let mut groups = groups.finished();
         for (cut, bundles) in &mut groups {
-            bundles.iter_mut().for_each(|bundle| self.deepen(*cut, bundle, goal));
+            for bundle in bundles {
+                self.deepen(*cut, bundle, goal);
+            }
         }
         groups
     }
 
     /// What a ray with this dominant axis is cut by.
+    #[inline(always)]
     fn cut(&self, axis: Axis) -> Cut {
         match self.method.algorithm {
             Algorithm::Kmarch => Cut::Slabs(axis),
@@ -144,7 +147,7 @@ impl Prepared {
         for i in 0..bundle.len() {
             let [x, y, z] = [0, 1, 2].map(|axis| bundle.direction[axis][i].abs());
             let speed = x.max(y).max(z);
-            // What is bisected, in q, and what gains nothing: pieces finer than coordinates are rounded.
+            // To the goal, but no deeper than coordinates are rounded.
             let (depth, finest) = match cut {
                 Cut::Slabs(axis) => {
                     let depth = goal.depth(&self.method, bounds.length(axis), speed);

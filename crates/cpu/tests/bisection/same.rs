@@ -49,20 +49,42 @@ fn instruction_set_and_packets_change_nothing() {
     }
 }
 
+/// By depth, the same for all rays, and by width, by which their depths differ.
+const STOPS: [Stop; 2] = [Stop::Depth(8), Stop::Width(0.02)];
+
 #[test]
 fn a_view_is_its_rays_one_by_one() {
     for (equation, half) in EQUATIONS {
         let scene = scene(equation, half);
         let view = view(&scene, 37, 35);
-        for rounding in [Rounding::Outward, Rounding::Nearest] {
+        for (rounding, stop) in [Rounding::Outward, Rounding::Nearest].into_iter().zip(STOPS) {
             for (algorithm, finish) in variants() {
-                let method = method(algorithm, rounding, finish);
+                let method = Bisection { stop, ..method(algorithm, rounding, finish) };
                 let hits = cast(&method, &scene, Rays::View(&view));
                 for i in (0..hits.len()).step_by(13) {
                     let alone = answers(&method, &scene, &[view.ray(i % 37, i / 37)])[0];
                     assert_eq!(alone, hits.get(i), "{equation} {method:?} ray {i}");
                 }
             }
+        }
+    }
+}
+
+/// Rays come in bundles, which may be full or not, and are taken whole where all are alike.
+#[test]
+fn bundles_of_any_size_change_nothing() {
+    let (equation, half) = EQUATIONS[0];
+    let scene = scene(equation, half);
+    let view = view(&scene, 64, 64);
+    // All meet the domain, mostly along one axis.
+    let rays: Vec<Ray> = (0..70).map(|i| view.ray(28 + i % 9, 28 + i / 9)).collect();
+    for (algorithm, stop) in ALGORITHMS.into_iter().flat_map(|a| STOPS.map(|stop| (a, stop))) {
+        let method = Bisection { stop, ..method(algorithm, Rounding::Outward, Finishing::Accept) };
+        let alone: Vec<Hit> =
+            rays.iter().map(|ray| answers(&method, &scene, std::slice::from_ref(ray))[0]).collect();
+        for count in 1..=rays.len() {
+            let together = answers(&method, &scene, &rays[..count]);
+            assert_eq!(together, alone[..count], "{count} rays, {method:?}");
         }
     }
 }
@@ -76,12 +98,13 @@ proptest! {
         order in Just((0..500).collect::<Vec<usize>>()).prop_shuffle(),
         algorithm in prop::sample::select(ALGORITHMS.to_vec()),
         accept in any::<bool>(),
+        stop in prop::sample::select(STOPS.to_vec()),
     ) {
         let (equation, half) = EQUATIONS[which];
         let scene = scene(equation, half);
         let rays: Vec<Ray> = assorted(&scene, 17).into_iter().take(500).collect();
         let finish = if accept { Finishing::Accept } else { Finishing::Certify };
-        let method = method(algorithm, Rounding::Outward, finish);
+        let method = Bisection { stop, ..method(algorithm, Rounding::Outward, finish) };
         let hits = answers(&method, &scene, &rays);
         let shuffled: Vec<Ray> = order.iter().map(|&i| rays[i]).collect();
         let expected: Vec<Hit> = order.iter().map(|&i| hits[i]).collect();
