@@ -39,7 +39,7 @@ fn devices_that_are_not_there_are_refused() {
         &["render", "sphere", "--method", "amp-sign-gpu", "--device", "no such device"],
     );
     assert_eq!(outcome.status, 2, "{}", outcome.stderr);
-    let says = if has_device() { "there are 0: " } else { "no GPU was found" };
+    let says = if has_device() { "numbers and names are 0: " } else { "no GPU was found" };
     assert!(outcome.stderr.contains(says), "{}", outcome.stderr);
 }
 

@@ -65,7 +65,7 @@ pub enum DeviceError {
     )]
     NoAdapter,
     /// No adapter is of that number or name.
-    #[error("no device is {wanted:?}; there are {known}")]
+    #[error("no device is {wanted:?}; numbers and names are {known}")]
     Unknown {
         /// What was asked for.
         wanted: String,
