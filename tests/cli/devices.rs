@@ -61,14 +61,16 @@ fn resident_frames_look_like_others() {
         return;
     }
     let dir = folder();
-    let base = ["render", "klein", "--size", "96x80", "--light", "1,-1,2"];
+    let base = ["render", "--size", "96x80", "--light", "1,-1,2"];
     for (more, limit) in [
-        (&[][..], 0.005),
+        (&["klein"][..], 0.005),
+        // Its gradient is nowhere finite.
+        (&["chmutov-14-cosine"], 0.02),
         // The edge of a shadow moves with the bracket's width.
-        (&["--shadows", "on"], 0.03),
-        (&["--camera", "ortho=7"], 0.005),
-        (&["--environment", "sky"], 0.005),
-        (&["--environment", "sky", "--shadows", "on"], 0.03),
+        (&["klein", "--shadows", "on"], 0.03),
+        (&["klein", "--camera", "ortho=7"], 0.005),
+        (&["klein", "--environment", "sky"], 0.005),
+        (&["klein", "--environment", "sky", "--shadows", "on"], 0.03),
     ] {
         let pictures =
             [("amp-sign", &[][..]), ("amp-sign-gpu", &["--resident"])].map(|(id, own)| {

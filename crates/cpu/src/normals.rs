@@ -1,7 +1,7 @@
 //! Unit normals at hits.
 
 use rayon::prelude::*;
-use zeroset_expr::Tape;
+use zeroset_expr::{Evaluator, Tape};
 use zeroset_ia::{Dual, plain::Plain};
 use zeroset_raycast::{Hits, Knob, KnobError, Rays, Request, Work, knob};
 
@@ -43,7 +43,9 @@ pub(crate) fn read(value: &str) -> Result<Normals, KnobError> {
 }
 
 /// Fills in the normals if they were asked for: the unit gradient at the middle of each bracket, in
-/// double precision; zero where it vanishes or is not finite. Gives what that cost.
+/// double precision. Where that is not finite, as where an infinite derivative meets an argument that stands
+/// still, central differences stand in; it is zero where it vanishes or they are not finite either. Gives
+/// what that cost, but for these.
 pub fn fill(tape: &Tape, normals: Normals, rays: Rays<'_>, hits: &mut Hits) -> Work {
     if hits.request != Request::FirstWithNormal {
         return Work::default();
@@ -76,35 +78,41 @@ pub fn fill(tape: &Tape, normals: Normals, rays: Rays<'_>, hits: &mut Hits) -> W
 }
 
 /// The gradient, or what stands in for it.
-enum Gradient<'a> {
-    Dual(zeroset_expr::Evaluator<'a, Dual<Plain<f64>, 3>>),
-    Stencil(zeroset_expr::Evaluator<'a, Plain<f64>>, f64),
+struct Gradient<'a> {
+    duals: Option<Evaluator<'a, Dual<Plain<f64>, 3>>>,
+    values: Evaluator<'a, Plain<f64>>,
+    normals: Normals,
 }
+
+/// The width of the stencil that stands in for a gradient, to the size of coordinates.
+const STAND_IN: f64 = 1.0 / (1 << 20) as f64;
 
 impl<'a> Gradient<'a> {
     fn new(tape: &'a Tape, normals: Normals) -> Self {
         let zero = Plain(0.0_f64);
-        match normals {
-            Normals::Gradient => Self::Dual(tape.evaluator(&Dual::constant_value(zero))),
-            Normals::Stencil(width) => Self::Stencil(tape.evaluator(&zero), width),
-        }
+        let duals =
+            (normals == Normals::Gradient).then(|| tape.evaluator(&Dual::constant_value(zero)));
+        Self { duals, values: tape.evaluator(&zero), normals }
     }
 
     /// Its direction, of any length.
     fn at(&mut self, p: DVec3) -> DVec3 {
-        match self {
-            Self::Dual(evaluator) => {
-                let point = [0, 1, 2].map(|axis| Dual::variable(Plain(p[axis]), axis));
-                DVec3::from(evaluator.evaluate(point).tangent.map(|t| t.0))
-            }
-            Self::Stencil(evaluator, width) => {
-                let mut value = |p: DVec3| evaluator.evaluate(p.to_array().map(Plain)).0;
-                DVec3::from(DVec3::AXES.map(|axis| {
-                    let half = 0.5 * *width * axis;
-                    value(p + half) - value(p - half)
-                }))
+        if let Some(duals) = &mut self.duals {
+            let point = [0, 1, 2].map(|axis| Dual::variable(Plain(p[axis]), axis));
+            let gradient = DVec3::from(duals.evaluate(point).tangent.map(|t| t.0));
+            if gradient.is_finite() {
+                return gradient;
             }
         }
+        let width = match self.normals {
+            Normals::Gradient => STAND_IN * p.abs().max_element(),
+            Normals::Stencil(width) => width,
+        };
+        let mut value = |p: DVec3| self.values.evaluate(p.to_array().map(Plain)).0;
+        DVec3::from(DVec3::AXES.map(|axis| {
+            let half = 0.5 * width * axis;
+            value(p + half) - value(p - half)
+        }))
     }
 }
 

@@ -89,12 +89,25 @@ fn segment_of(origin: vec3f, direction: vec3f) -> Segment {
     return segment;
 }
 
+// By central differences where it is not finite: the CPU has narrower ones, in double precision.
 fn gradient(p: vec3f) -> vec3f {
-    return vec3f(
+    let g = vec3f(
         slope(p.x, p.y, p.z, 1.0, 0.0, 0.0),
         slope(p.x, p.y, p.z, 0.0, 1.0, 0.0),
         slope(p.x, p.y, p.z, 0.0, 0.0, 1.0),
     );
+    if is_finite(g.x) && is_finite(g.y) && is_finite(g.z) {
+        return g;
+    }
+    var differences: vec3f;
+    for (var axis = 0u; axis < 3u; axis++) {
+        var half: vec3f;
+        half[axis] = settings.high.w / 8192.0;
+        let a = p - half;
+        let b = p + half;
+        differences[axis] = value(b.x, b.y, b.z) - value(a.x, a.y, a.z);
+    }
+    return differences;
 }
 
 // A linear colour as sRGB bytes.
