@@ -102,14 +102,16 @@ impl<R: Packet, C: Cutting> Lattice<R, C> {
             Cut::Slabs(axis) => (bounds.start(axis), bounds.length(axis), 1),
             Cut::Rays => (0.0, 0.0, 0),
         };
-        // t where q = 0, and the direction's component along the dominant axis. Loops without branches,
-        // which the compiler turns into vectors.
-        let (mut t0, mut along) = ([0.0_f64; SIZE], [0.0_f64; SIZE]);
+        // t where q = 0, the direction's component along the dominant axis, and its inverse. Loops without
+        // branches, which the compiler turns into vectors.
+        let [mut t0, mut along, mut pace] = [[0.0_f64; SIZE]; 3];
         match cut {
             Cut::Slabs(_) => {
                 for i in 0..R::LANES {
-                    t0[i] = (start - o[0][i]) * (1.0 / d[0][i]);
+                    let inverse = 1.0 / d[0][i];
+                    t0[i] = (start - o[0][i]) * inverse;
                     along[i] = d[0][i].abs();
+                    pace[i] = inverse.abs();
                 }
             }
             Cut::Rays => {
@@ -118,6 +120,7 @@ impl<R: Packet, C: Cutting> Lattice<R, C> {
                     let [x, y, z] = [d[0][i].abs(), d[1][i].abs(), d[2][i].abs()];
                     let larger = if x < y { y } else { x };
                     along[i] = if larger < z { z } else { larger };
+                    pace[i] = 1.0 / along[i];
                 }
             }
         }
@@ -132,7 +135,7 @@ impl<R: Packet, C: Cutting> Lattice<R, C> {
                 let [lo, hi] = ends(o + shift, UNITS_8 * (o.abs() + shift.abs()) + TINY);
                 origin_lo[i] = lo;
                 origin_hi[i] = hi;
-                let s = d * (1.0 / along[i]);
+                let s = d * pace[i];
                 let [lo, hi] = ends(s, UNITS_8 * s.abs());
                 slope_lo[i] = lo;
                 slope_hi[i] = hi;

@@ -139,27 +139,33 @@ impl Prepared {
         }
     }
 
-    /// Sets how often the pieces of each ray are bisected.
+    /// Sets how often the pieces of each ray are bisected: to the goal, but no deeper than coordinates are
+    /// rounded.
     #[inline(always)]
     fn deepen(&self, cut: Cut, bundle: &mut Bundle, goal: &Goal) {
-        let bounds = &self.form.bounds;
+        let Self { method, form: Form { bounds, .. }, .. } = self;
         let least = first(goal.stop);
+        let limited = |depth: u32, finest: u32| depth.min(finest).min(MAX_DEPTH).max(least);
+        if let (Cut::Slabs(axis), Stop::Depth(_)) = (cut, goal.stop) {
+            // The same for all rays.
+            let depth = goal.depth(method, bounds.length(axis), 1.0);
+            bundle.depth = [limited(depth, bounds.finest(axis.k)); bundle::SIZE];
+            return;
+        }
         for i in 0..bundle.len() {
             let [x, y, z] = [0, 1, 2].map(|axis| bundle.direction[axis][i].abs());
             let speed = x.max(y).max(z);
-            // To the goal, but no deeper than coordinates are rounded.
-            let (depth, finest) = match cut {
+            bundle.depth[i] = match cut {
                 Cut::Slabs(axis) => {
-                    let depth = goal.depth(&self.method, bounds.length(axis), speed);
-                    (depth, bounds.finest(axis.k))
+                    let depth = goal.depth(method, bounds.length(axis), speed);
+                    limited(depth, bounds.finest(axis.k))
                 }
                 Cut::Rays => {
                     let length = (bundle.range[1][i] - bundle.range[0][i]) * speed;
-                    let depth = goal.depth(&self.method, length, speed);
-                    (depth, bisections(length, bounds.resolution()))
+                    let depth = goal.depth(method, length, speed);
+                    limited(depth, bisections(length, bounds.resolution()))
                 }
             };
-            bundle.depth[i] = depth.min(finest).min(MAX_DEPTH).max(least);
         }
     }
 }
