@@ -10,7 +10,9 @@ use equations::{
 };
 use proptest::prelude::*;
 use zeroset_expr::Tape;
-use zeroset_ia::{BigInterval, Decorated, Decoration, Dual, Number, Plain, Scalar};
+use zeroset_ia::{
+    Affine, BigInterval, Decorated, Decoration, Dual, Interval, Number, Plain, Scalar,
+};
 
 /// Values are in enclosures, enclosures of boxes in those of larger ones.
 fn check_inclusion<S: Scalar>(tape: &Tape, nest: &Nest) -> Result<bool, TestCaseError> {
@@ -102,6 +104,67 @@ fn check_slopes(tape: &Tape, nests: &[Nest; LANES]) -> Result<bool, TestCaseErro
         }
     }
     Ok(compared)
+}
+
+/// Where raw intervals may be used, the value is within the error of the linear part, and in the interval.
+fn check_affine<S: Scalar>(
+    tape: &Tape,
+    nest: &Nest,
+    symbols: [usize; 3],
+) -> Result<bool, TestCaseError> {
+    let boxes = nest.map(|[_, lo, _, hi, _]| around::<S>(lo, hi));
+    let mut is_raw = true;
+    let decorated = boxes.map(Decorated::new);
+    tape.evaluator(&decorated[0]).visit(decorated, |x| {
+        is_raw &= x.interval.is_bounded_by(1e30) && x.decoration >= Decoration::Defined;
+    });
+    let mut forms = boxes.map(|x| Affine::<S, 3>::variable(Interval::new(x.lo, x.hi), 0));
+    for (form, symbol) in forms.iter_mut().zip(symbols) {
+        form.slopes.swap(0, symbol);
+    }
+    // The point in the box, by symbols; nearly as far as they go.
+    let noise = nest.map(|[_, lo, x, hi, _]| {
+        let share = if lo < hi { (x - lo) / (hi - lo) } else { 0.5 };
+        big(0.998 * (2.0 * share.clamp(0.0, 1.0) - 1.0))
+    });
+    let linear = |form: &Affine<S, 3>| {
+        let mut sum = big(form.centre.to_f64());
+        for (slope, noise) in form.slopes.iter().zip(&noise) {
+            sum = sum + big(slope.to_f64()) * noise.clone();
+        }
+        sum
+    };
+    let point = [0, 1, 2].map(|axis| linear(&forms[axis]));
+    let is_inside = point.iter().zip(boxes).all(|(x, range)| holds(range, x));
+    if !is_raw || !is_inside {
+        return Ok(false);
+    }
+    let found = value(tape, forms);
+    let exact = value(tape, point);
+    let error = around::<S>(-found.error.to_f64(), found.error.to_f64());
+    let off = exact.clone() - linear(&found);
+    let told = || format!("{boxes:?}, {symbols:?}: {found:?}, but {:?}", exact.to_f64());
+    prop_assert!(holds(error, &off), "{}, off by {:?}", told(), off.to_f64());
+    let range = around::<S>(found.range.lo.to_f64(), found.range.hi.to_f64());
+    prop_assert!(holds(range, &exact), "{}", told());
+    Ok(true)
+}
+
+fn check_affine_forms(tape: &Tape, nests: &[Nest; LANES]) -> Result<bool, TestCaseError> {
+    let mut compared = false;
+    for nest in nests {
+        for symbols in [[0, 1, 2], [0, 0, 1], [2, 2, 2]] {
+            compared |= check_affine::<f32>(tape, nest, symbols)?;
+            compared |= check_affine::<f64>(tape, nest, symbols)?;
+        }
+    }
+    Ok(compared)
+}
+
+#[test]
+fn values_are_in_affine_forms() {
+    on_the_catalogue(5, check_affine_forms);
+    on_equations(500, check_affine_forms);
 }
 
 #[test]

@@ -26,6 +26,7 @@
 //! | [`big`] | intervals of any precision |
 //! | [`constant`] | exact constants, as every number takes them |
 
+pub mod affine;
 pub mod big;
 pub mod constant;
 pub mod decorated;
@@ -43,6 +44,7 @@ mod range;
 pub mod real;
 mod single;
 
+pub use affine::Affine;
 pub use big::BigInterval;
 pub use constant::Constant;
 pub use decorated::{Decorated, Decoration};

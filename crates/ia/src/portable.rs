@@ -14,7 +14,7 @@ use std::array;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::real::{forward, forward_operators};
-use crate::{Binary, Constant, Interval, Number, Real, Scalar, Unary};
+use crate::{Binary, Constant, Interval, Number, Packet, Real, Scalar, Unary};
 
 /// By how many units in the last place a device's division may be wrong: 2.5 by the language.
 pub const DIVISION_STEPS: u32 = 4;
@@ -385,6 +385,29 @@ impl Real for Mirror {
     }
     fn power_range(x: [Self; 2], c: &Constant) -> [Self; 2] {
         binary_range(Binary::Pow, x, enclosure(c).map(Self))
+    }
+}
+
+impl Packet for Mirror {
+    const LANES: usize = 1;
+
+    fn from_fn(self, mut f: impl FnMut(usize) -> f32) -> Self {
+        Self(f(0))
+    }
+    fn lane(self, _: usize) -> f32 {
+        self.0
+    }
+    fn lt(self, other: Self) -> u64 {
+        u64::from(self.0 < other.0)
+    }
+    fn le(self, other: Self) -> u64 {
+        u64::from(self.0 <= other.0)
+    }
+    fn select(self, mask: u64, x: Self, y: Self) -> Self {
+        if mask & 1 == 1 { x } else { y }
+    }
+    fn region<T>(self, work: impl FnOnce() -> T) -> T {
+        work()
     }
 }
 
