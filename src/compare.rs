@@ -213,7 +213,8 @@ impl Compare {
         } else {
             shade::pictures(self.view, view, &answers).map_err(Failure::work)?
         };
-        let errors = if comparison.truths.is_some() {
+        let is_judged = comparison.truths.is_some() || comparison.footprints.is_some();
+        let errors = if is_judged {
             shade::pictures(ViewKind::Error, view, &answers).map_err(Failure::work)?
         } else {
             Vec::new()

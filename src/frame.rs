@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use zeroset::bench::{Sample, Tolerance, Truths, judge, truth};
-use zeroset::raycast::{Certificate, Hits, Intersector, Progress, Rays, Report, Request};
+use zeroset::raycast::{Certificate, Hits, Intersector, Progress, Rays, Report, Request, Sampling};
 use zeroset::raycast::{Scene, View, Work};
 use zeroset::shade::{self, Agreement, Light, Picture, ShadowRays, ViewKind, shaded};
 
@@ -21,6 +21,10 @@ use crate::watch::Bar;
 pub(crate) struct Painter<'a> {
     /// The rays.
     pub(crate) view: &'a View,
+    /// What they stand for.
+    pub(crate) sampling: Sampling,
+    /// So many by so many of them make a pixel.
+    pub(crate) side: usize,
     /// What is shown of the hits.
     pub(crate) kind: ViewKind,
     /// Is a legend drawn below?
@@ -91,6 +95,7 @@ impl Painter<'_> {
             }
             _ => shade::picture(self.kind, self.view, &hits, None),
         };
+        let picture = picture.and_then(|picture| picture.averaged(self.side));
         let picture =
             if self.legend { picture.and_then(|picture| picture.with_legend()) } else { picture };
         let picture = picture.map_err(Failure::work)?;
@@ -147,7 +152,7 @@ impl Painter<'_> {
         let oracle = truth::reference(scene)?;
         let sample = Sample::every(1, rays);
         let truths = bar.follow("reference", rays.len(), self.progress, || {
-            oracle.classify(rays, &sample.indices, self.progress)
+            truth::classify(&oracle, self.sampling, rays, &sample.indices, self.progress)
         })?;
         let truths = Truths { sample, truths };
         Ok(agreement(&judge(rays, hits, &truths, Tolerance::Footprint)))

@@ -141,6 +141,7 @@
 //! [`Registry`](bench::Registry), and hand it to [`bench::compare`](fn@bench::compare) and
 //! [`bench::check`]. `examples/custom-method` in the repository is such a package.
 
+pub use zeroset_beam as beam;
 pub use zeroset_bench as bench;
 pub use zeroset_cpu as cpu;
 pub use zeroset_expr as expr;

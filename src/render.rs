@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use clap::Args;
 use zeroset::bench;
-use zeroset::raycast::{Method, Progress, Scene, View};
+use zeroset::raycast::{Method, Progress, Sampling, Scene, View};
 use zeroset::shade::ViewKind;
 
 use crate::animate::Animator;
@@ -25,6 +25,7 @@ Examples:
   zeroset render barth-sextic
   zeroset render klein --view certificate --legend --size 1024x1024
   zeroset render '-x^2-y^2-z^2+1' --camera eye=0,-4,0,fov=30 --out sphere.png
+  zeroset render octdong --method beam-adaptive --samples 4
   zeroset render torus --method amp-sign --view error --legend --out error.png
   zeroset render klein --light 1,-1,2 --shadows on
   zeroset render barth-decic --method amp-sign-gpu --resident --animate azimuth=0:90:60 --out turn/
@@ -56,6 +57,10 @@ pub(crate) struct Render {
     /// Draws below the picture what its colours mean
     #[arg(long)]
     legend: bool,
+    /// Samples a pixel: each is cast as a pixel of an image that is finer by its root, and colours are
+    /// averaged in linear light
+    #[arg(long, value_name = "N", value_parser = samples, default_value = "1")]
+    samples: usize,
     #[command(flatten)]
     light: LightOptions,
     #[command(flatten)]
@@ -83,6 +88,9 @@ impl Render {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<(), Failure> {
         self.light.check(self.view)?;
+        if self.samples > 1 && self.resident {
+            return Err(Failure::usage("--samples is not for --resident"));
+        }
         match self.motion.frames()? {
             frames if self.resident => self.stay(frames),
             Some(frames) => self.animate(frames),
@@ -124,7 +132,7 @@ impl Render {
         let start = Instant::now();
         let intersector = method.prepare(&scene)?;
         let prepare_ms = milliseconds(start.elapsed());
-        let painter = self.painter(&view, &progress);
+        let painter = self.painter(&view, method.sampling(), &progress);
         let frame = painter.paint(method.id(), &scene, &*intersector, &Bar::new())?;
         frame.save(&file, &view)?;
 
@@ -156,19 +164,28 @@ impl Render {
         let start = Instant::now();
         let mut intersector = method.prepare(&scene)?;
         let prepared = start.elapsed();
-        let painter = self.painter(&view, &progress);
+        let painter = self.painter(&view, method.sampling(), &progress);
         let animator = Animator { motion: &self.motion, painter, files: &files, frames };
         animator.run(scene, &mut *intersector, prepared)
     }
 
-    fn painter<'a>(&'a self, view: &'a View, progress: &'a Progress) -> Painter<'a> {
-        Painter { view, kind: self.view, legend: self.legend, light: &self.light, progress }
+    fn painter<'a>(
+        &'a self,
+        view: &'a View,
+        sampling: Sampling,
+        progress: &'a Progress,
+    ) -> Painter<'a> {
+        let (kind, legend, light) = (self.view, self.legend, &self.light);
+        let side = self.samples.isqrt();
+        Painter { view, sampling, side, kind, legend, light, progress }
     }
 
     /// The scene, the camera and the method that are asked for.
     fn setup(&self, options: &SceneOptions) -> Result<Setup, Failure> {
         let (_, scene) = surface::scene(options)?;
         let view = self.camera.view(&scene.domain, self.size)?;
+        let side = self.samples.isqrt();
+        let view = View::new(view.camera(), side * view.width, side * view.height);
         let mut methods = [bench::method(&self.method).map_err(Failure::usage)?];
         self.methods.set(&mut methods, &scene)?;
         let [method] = methods;
@@ -188,6 +205,18 @@ impl Render {
         if self.legend && is_exr(file) {
             return Err(Failure::usage("--legend is for .png files; an .exr file holds numbers"));
         }
+        if self.samples > 1 && is_exr(file) {
+            let why = "--samples is for .png files; an .exr file holds the hit of each pixel";
+            return Err(Failure::usage(why));
+        }
         Ok(())
+    }
+}
+
+/// Reads a number of samples: a square.
+fn samples(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(n) if (1..=256).contains(&n) && n.isqrt().pow(2) == n => Ok(n),
+        _ => Err("give a square from 1 to 256, such as 4 or 16".into()),
     }
 }

@@ -40,12 +40,15 @@ pub(crate) fn tables(comparison: &Comparison, rays: usize) -> String {
         parts.push(cost(&outcomes, rays));
         parts.push(certificates(&outcomes, rays));
     }
-    match (&comparison.truths, &comparison.no_truth) {
-        (Some(truths), _) if !outcomes.is_empty() => {
-            parts.push(format!("{}\n\n{}", sampling(truths, rays), judged(&outcomes)));
-        }
-        (None, Some(why)) => parts.push(format!("Not judged: {why}")),
-        _ => {}
+    let known = [(&comparison.truths, "rays"), (&comparison.footprints, "pixels")];
+    let known: Vec<_> = known
+        .iter()
+        .filter_map(|(truths, what)| Some(sampling(truths.as_ref()?, what, rays)))
+        .collect();
+    match &comparison.no_truth {
+        Some(why) => parts.push(format!("Not judged: {why}")),
+        None if known.is_empty() || outcomes.is_empty() => {}
+        None => parts.push(format!("{}\n\n{}", known.join("\n"), judged(&outcomes))),
     }
     for run in &comparison.runs {
         if let Err(error) = &run.outcome {
@@ -98,21 +101,22 @@ fn certificates(outcomes: &Rows<'_>, rays: usize) -> String {
     table.to_string()
 }
 
-/// What was judged, in words.
-fn sampling(truths: &Truths, rays: usize) -> String {
+/// What was judged, in words: rays, or pixels by 16 rays each.
+fn sampling(truths: &Truths, what: &str, rays: usize) -> String {
     let [crossed, touched, none, undecidable] = truths.classes();
     let which = if truths.sample.is_all() {
-        format!("all {rays} rays")
+        format!("all {rays} {what}")
     } else {
         format!(
-            "every {} ray in both axes, {} of {rays}, for the reference is slow here",
+            "every {} of the {what} in both axes, {} of {rays}, for the reference is slow here",
             ordinal(truths.sample.step),
             truths.truths.len()
         )
     };
+    let how = if what == "pixels" { ", by 16 rays of each" } else { "" };
     let mut text = format!(
-        "Judged against the reference on {which}: {crossed} cross the surface first, {touched} \
-         touch it, {none} miss"
+        "Judged against the reference on {which}{how}: {crossed} cross the surface first, \
+         {touched} touch it, {none} miss"
     );
     if undecidable > 0 {
         text += &format!(", {undecidable} are undecidable");

@@ -2,22 +2,25 @@
 //!
 //! On a small view and on rays that find faults: no certificate contradicts the reference; methods that
 //! search whole rays miss no transversal hit; and an answer depends on its ray alone. Methods that can
-//! certify their hits are asked a second time, to do so: most hits of the view are then proven.
+//! certify their hits are asked a second time, to do so: most hits of the view are then proven. Methods that
+//! answer for pixels are judged by 16 rays of each.
 
 mod rays;
 
-use zeroset_bench::{Class, Oracle, Registry, Sample, Tolerance, Truths, judge, truth};
+use zeroset_bench::{Class, Footprints, Oracle, Registry, Sample, Tolerance, Truths, judge, truth};
 use zeroset_expr::Parameters;
 use zeroset_raycast::catalogue::{Catalogue, Surface};
 use zeroset_raycast::{
-    Camera, Certificate, Geometry, Hit, Hits, Intersector, Progress, RayBatch, Rays, Request, View,
+    Camera, Certificate, Geometry, Hit, Hits, Intersector, Progress, RayBatch, Rays, Request,
+    Sampling, View,
 };
 
 /// Pixels along a side of the view.
 const SIZE: usize = 16;
 
 /// The methods that look at every part of a ray.
-const SEARCHERS: [&str; 5] = ["kmarch", "tbisect", "mitchell", "tbisect-gpu", "reference"];
+const SEARCHERS: [&str; 7] =
+    ["kmarch", "tbisect", "mitchell", "tbisect-gpu", "beam-uniform", "beam-adaptive", "reference"];
 
 fn ask(intersector: &dyn Intersector, rays: Rays<'_>) -> Hits {
     let mut hits = Hits::new(Request::First, rays.len());
@@ -101,6 +104,9 @@ fn check(surface: &Surface, registry: &Registry) -> Tally {
     hard = hard.into_iter().step_by(step).collect();
     let batch = RayBatch::new(hard);
     let known = truths(&oracle, Rays::Batch(&batch));
+    // Sixteen rays a pixel.
+    let coarse = View::new(view.camera(), size / 2, size / 2);
+    let pixels = truths(&Footprints(&oracle), Rays::View(&coarse));
 
     let mut tally = Tally::default();
     let certified = registry.certified();
@@ -109,6 +115,12 @@ fn check(surface: &Surface, registry: &Registry) -> Tally {
         let intersector = method.prepare(&scene).expect("what is supported can be prepared");
         let finds = SEARCHERS.contains(&method.id());
         let certifies = k >= registry.iter().count();
+        if method.sampling() == Sampling::Footprint {
+            let place = format!("{} on {}", method.id(), scene.id);
+            let hits = ask(intersector.as_ref(), Rays::View(&coarse));
+            tally.judge(&place, Rays::View(&coarse), &hits, &pixels, finds);
+            continue;
+        }
         for (rays, truths) in [(Rays::View(&view), &seen), (Rays::Batch(&batch), &known)] {
             let place = format!("{} on {}", method.id(), scene.id);
             let hits = ask(intersector.as_ref(), rays);

@@ -12,8 +12,8 @@ use zeroset_bench::{Class, Registry, judge::lie};
 use zeroset_cpu::{Arithmetic, Bisection, Reference};
 use zeroset_expr::Function;
 use zeroset_raycast::{
-    Camera, Certificate, Domain, Hits, Method, Progress, Projection, Ray, RayBatch, Rays, Request,
-    Scene, View,
+    Camera, Certificate, Domain, Error, Hits, Method, Progress, Projection, Ray, RayBatch, Rays,
+    Request, Sampling, Scene, View,
 };
 
 /// How many answers of each kind were given, by all methods together.
@@ -78,6 +78,10 @@ fn check(scene: &Scene, shape: &Shape, rays: Vec<Ray>) -> Count {
     let certified = certified.iter().map(AsRef::as_ref);
     let methods = registry.iter().chain(double).chain(certified);
     for method in methods.filter(|method| method.supports(scene).is_ok()) {
+        if method.sampling() == Sampling::Footprint {
+            check_pixels(method, scene, shape);
+            continue;
+        }
         let hits = ask(method, scene, rays);
         for (i, truth) in truths.iter().enumerate() {
             let hit = hits.get(i);
@@ -93,6 +97,34 @@ fn check(scene: &Scene, shape: &Shape, rays: Vec<Ray>) -> Count {
         }
     }
     count
+}
+
+/// Judges a method that answers for whole pixels by the closed form, on 16 rays of each.
+fn check_pixels(method: &dyn Method, scene: &Scene, shape: &Shape) {
+    let view = View::new(Camera::facing(&scene.domain), 9, 7);
+    let intersector = method.prepare(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.id));
+    let mut hits = Hits::new(Request::First, 63);
+    match intersector.intersect(Rays::View(&view), &mut hits, &Progress::new()) {
+        // Cameras can be too far away.
+        Err(Error::Unsupported(_)) => return,
+        answered => answered.map(|_| ()).unwrap_or_else(|e| panic!("{}: {e}", scene.id)),
+    }
+    for i in 0..63 {
+        let (column, row) = ((i % 9) as f64, (i / 9) as f64);
+        for k in 0..16 {
+            let (u, v) = (f64::from(k % 4) / 3.0, f64::from(k / 4) / 3.0);
+            let ray = view.ray_at(column + u, row + v);
+            if !ray.is_valid() {
+                // The domain is beyond single precision.
+                assert_eq!(hits.certificate[i], Certificate::MISS, "{}", method.id());
+                continue;
+            }
+            let roots = shape.roots(ray, &scene.domain);
+            let fault = roots.and_then(|roots| roots.contradiction(hits.get(i)));
+            let place = format!("{} on {}: {ray:?}: {:?}", method.id(), scene.id, hits.get(i));
+            assert_eq!(fault, None, "{place}");
+        }
+    }
 }
 
 /// Rays towards a cube around a point, from outside, inside and along axes.
@@ -290,7 +322,9 @@ fn what_is_no_ray_is_missed_and_harms_no_neighbour() {
         mixed.extend([bad, *ray]);
     }
     let (good, mixed) = (RayBatch::new(good), RayBatch::new(mixed));
-    for method in Registry::standard().iter().filter(|method| method.supports(&scene).is_ok()) {
+    let registry = Registry::standard();
+    let of_rays = registry.iter().filter(|method| method.sampling() == Sampling::Ray);
+    for method in of_rays.filter(|method| method.supports(&scene).is_ok()) {
         let alone = ask(method, &scene, Rays::Batch(&good));
         let among = ask(method, &scene, Rays::Batch(&mixed));
         for i in 0..alone.len() {

@@ -5,12 +5,13 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The layers from the bottom up; crates of one layer do not know each other.
-const LAYERS: [&[&str]; 7] = [
+const LAYERS: [&[&str]; 8] = [
     &["zeroset-ia"],
     &["zeroset-expr"],
     &["zeroset-raycast"],
     &["zeroset-cpu", "zeroset-shade"],
     &["zeroset-gpu"],
+    &["zeroset-beam"],
     &["zeroset-bench"],
     &["zeroset"],
 ];

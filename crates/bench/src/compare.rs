@@ -3,11 +3,11 @@
 use std::time::{Duration, Instant};
 
 use zeroset_raycast::{
-    Certificate, Error, Hits, Intersector, Knob, Method, Progress, RayBatch, Rays, Request, Scene,
-    Work,
+    Certificate, Error, Hits, Intersector, Knob, Method, Progress, RayBatch, Rays, Request,
+    Sampling, Scene, Work,
 };
 
-use crate::{Judgement, Oracle, Sample, Tolerance, Truth, Truths, judge, truth};
+use crate::{Footprints, Judgement, Oracle, Sample, Tolerance, Truth, Truths, judge, truth};
 
 /// How to compare.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,8 +65,11 @@ pub enum Stage {
 /// Methods compared on a scene and rays.
 #[derive(Debug)]
 pub struct Comparison {
-    /// What is known of the rays; `None` if nothing was judged.
+    /// What is known of the rays; `None` if no method was judged by it.
     pub truths: Option<Truths>,
+    /// What is known of the pixels, for methods whose answers hold for them; `None` if there were none, or
+    /// nothing was judged.
+    pub footprints: Option<Truths>,
     /// Why the reference has no answer, if it was asked and has none.
     pub no_truth: Option<Error>,
     /// One a method, in order; methods that were not reached are left out.
@@ -80,6 +83,8 @@ pub struct Comparison {
 pub struct Run {
     /// The method's id.
     pub method: &'static str,
+    /// What its answers hold for, and are judged by.
+    pub sampling: Sampling,
     /// Its knobs.
     pub knobs: Vec<Knob>,
     /// What came of it.
@@ -161,11 +166,12 @@ pub fn compare(
     progress: &Progress,
     watch: &mut dyn FnMut(Stage, f64),
 ) -> Comparison {
-    let truths = options.is_judged().then(|| {
-        let oracle = truth::reference(scene)?;
-        classify(&oracle, rays, options.judging, options.seed, progress, watch)
-    });
-    run_all(truths, scene, rays, methods, options, progress, watch)
+    let known = match options.is_judged().then(|| truth::reference(scene)).transpose() {
+        Ok(Some(oracle)) => Known::of(&oracle, rays, methods, options, progress, watch),
+        Ok(None) => Ok(Known::default()),
+        Err(error) => Err(error),
+    };
+    run_all(known, scene, rays, methods, options, progress, watch)
 }
 
 /// As [`compare`], but judged against another oracle than the reference.
@@ -178,15 +184,46 @@ pub fn compare_with(
     progress: &Progress,
     watch: &mut dyn FnMut(Stage, f64),
 ) -> Comparison {
-    let truths = options
-        .is_judged()
-        .then(|| classify(oracle, rays, options.judging, options.seed, progress, watch));
-    run_all(truths, scene, rays, methods, options, progress, watch)
+    let known = if options.is_judged() {
+        Known::of(oracle, rays, methods, options, progress, watch)
+    } else {
+        Ok(Known::default())
+    };
+    run_all(known, scene, rays, methods, options, progress, watch)
 }
 
-/// Each method, judged against the truths if there are any.
+/// What is known of rays, and of pixels.
+#[derive(Default)]
+struct Known {
+    rays: Option<Truths>,
+    footprints: Option<Truths>,
+}
+
+impl Known {
+    /// What these methods are judged by.
+    fn of(
+        oracle: &dyn Oracle,
+        rays: Rays<'_>,
+        methods: &[Box<dyn Method>],
+        options: &Options,
+        progress: &Progress,
+        watch: &mut dyn FnMut(Stage, f64),
+    ) -> Result<Self, Error> {
+        let has = |sampling| methods.iter().any(|method| method.sampling() == sampling);
+        let mut ask = |oracle: &dyn Oracle| {
+            classify(oracle, rays, options.judging, options.seed, progress, watch)
+        };
+        let has_footprints = has(Sampling::Footprint) && matches!(rays, Rays::View(_));
+        Ok(Self {
+            rays: has(Sampling::Ray).then(|| ask(oracle)).transpose()?,
+            footprints: has_footprints.then(|| ask(&Footprints(oracle))).transpose()?,
+        })
+    }
+}
+
+/// Each method, judged against what is known.
 fn run_all(
-    truths: Option<Result<Truths, Error>>,
+    known: Result<Known, Error>,
     scene: &Scene,
     rays: Rays<'_>,
     methods: &[Box<dyn Method>],
@@ -194,9 +231,9 @@ fn run_all(
     progress: &Progress,
     watch: &mut dyn FnMut(Stage, f64),
 ) -> Comparison {
-    let (truths, no_truth) = match truths.transpose() {
-        Ok(truths) => (truths, None),
-        Err(error) => (None, Some(error)),
+    let (known, no_truth) = match known {
+        Ok(known) => (known, None),
+        Err(error) => (Known::default(), Some(error)),
     };
     let mut runs = Vec::new();
     let tolerance = options.tolerance.unwrap_or(match rays {
@@ -207,15 +244,21 @@ fn run_all(
         if progress.is_stopped() {
             break;
         }
+        let sampling = method.sampling();
+        let truths = match sampling {
+            Sampling::Ray => &known.rays,
+            Sampling::Footprint => &known.footprints,
+        };
         let judge =
             |hits: &Hits| truths.as_ref().map(|truths| judge(rays, hits, truths, tolerance));
         let outcome = run(method.as_ref(), scene, rays, options, &judge, progress, watch);
         if matches!(outcome, Err(Error::Interrupted)) {
             break;
         }
-        runs.push(Run { method: method.id(), knobs: method.knobs(), outcome });
+        runs.push(Run { method: method.id(), sampling, knobs: method.knobs(), outcome });
     }
-    Comparison { truths, no_truth, runs, interrupted: progress.is_stopped() }
+    let Known { rays: truths, footprints } = known;
+    Comparison { truths, footprints, no_truth, runs, interrupted: progress.is_stopped() }
 }
 
 /// The truth on ever finer grids, up to all rays, as long as the next is expected to fit the budget.

@@ -28,4 +28,4 @@ pub use judge::{Judgement, Lie, Tally, Tolerance, Verdict, judge};
 pub use machine::Machine;
 pub use methods::{Registry, UnknownMethod, method, methods};
 pub use record::{Context, Record, RecordError};
-pub use truth::{Class, Oracle, Remembering, Sample, Truth, Truths};
+pub use truth::{Class, Footprints, Oracle, Remembering, Sample, Truth, Truths};

@@ -12,9 +12,13 @@ pub fn methods() -> Vec<Box<dyn Method>> {
         Box::new(zeroset_cpu::Bisection::kmarch()),
         Box::new(zeroset_cpu::Bisection::tbisect()),
         Box::new(zeroset_cpu::Bisection::mitchell()),
+        Box::new(zeroset_beam::Beam::uniform()),
+        Box::new(zeroset_beam::Beam::adaptive()),
         Box::new(zeroset_gpu::AmpGpu::default()),
         Box::new(zeroset_gpu::AmpGpu::new(zeroset_cpu::RootTest::Taylor)),
         Box::new(zeroset_gpu::BisectionGpu::default()),
+        Box::new(zeroset_beam::BeamGpu::uniform()),
+        Box::new(zeroset_beam::BeamGpu::adaptive()),
         Box::new(zeroset_cpu::Reference::default()),
     ]
 }

@@ -1,10 +1,10 @@
-//! What is known of rays: the side on which a judge looks answers up.
+//! What is known of rays and pixels: the side on which a judge looks answers up.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
 use zeroset_cpu::{PreparedReference, Reference};
-use zeroset_raycast::{Error, Progress, Rays, Scene};
+use zeroset_raycast::{Error, Progress, RayBatch, Rays, Sampling, Scene, Unsupported, Work};
 
 pub use zeroset_cpu::{Class, Truth};
 
@@ -30,6 +30,81 @@ impl Oracle for PreparedReference {
         progress: &Progress,
     ) -> Result<Vec<Truth>, Error> {
         self.classify(rays, indices, progress)
+    }
+}
+
+/// What is known of whole pixels, from 16 rays of each: 4 by 4 places, corners included.
+///
+/// The truth of a pixel is that of its first root on any of the rays: its bracket starts where the first
+/// root, or what is undecided, may be, and ends where a root is known to be. So an answer that holds for
+/// the pixel is judged as one that holds for a ray: a `proven-miss` lies if one of the rays has a root, and
+/// FIRST if a root lies before the bracket. Of a view only.
+pub struct Footprints<'a>(pub &'a dyn Oracle);
+
+/// Where the rays of a pixel are, in each axis.
+const PLACES: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
+
+impl Oracle for Footprints<'_> {
+    fn classify(
+        &self,
+        rays: Rays<'_>,
+        indices: &[usize],
+        progress: &Progress,
+    ) -> Result<Vec<Truth>, Error> {
+        let Rays::View(view) = rays else {
+            return Err(Error::Unsupported(Unsupported("a batch has no pixels".into())));
+        };
+        let places = PLACES.map(|v| PLACES.map(|u| [u, v]));
+        let places = places.as_flattened();
+        let of = |&i: &usize| {
+            let (column, row) = ((i % view.width) as f64, (i / view.width) as f64);
+            places.iter().map(move |[u, v]| view.ray_at(column + u, row + v))
+        };
+        let batch = RayBatch { rays: indices.iter().flat_map(of).collect(), range: rays.range() };
+        let all: Vec<usize> = (0..batch.rays.len()).collect();
+        let truths = self.0.classify(Rays::Batch(&batch), &all, progress)?;
+        Ok(truths.chunks(places.len()).map(first).collect())
+    }
+}
+
+/// The truth of the first root on any of some rays.
+fn first(rays: &[Truth]) -> Truth {
+    let mut work = Work::default();
+    rays.iter().for_each(|truth| work += truth.work);
+    let brackets = |classes: &[Class]| -> Vec<[f64; 2]> {
+        rays.iter().filter(|t| classes.contains(&t.class)).map(|t| t.bracket).collect()
+    };
+    let crossed = brackets(&[Class::Transversal]);
+    let rooted = brackets(&[Class::Transversal, Class::Tangential]);
+    let open = brackets(&[Class::Undecidable]);
+    let class = match (crossed.is_empty(), rooted.is_empty(), open.is_empty()) {
+        (false, ..) => Class::Transversal,
+        (true, false, _) => Class::Tangential,
+        (true, true, false) => Class::Undecidable,
+        (true, true, true) => Class::None,
+    };
+    let least = |ends: &[[f64; 2]], end: usize| {
+        ends.iter().map(|ends| ends[end]).fold(f64::INFINITY, f64::min)
+    };
+    let from = least(&rooted, 0).min(least(&open, 0));
+    let to = if rooted.is_empty() { least(&open, 1) } else { least(&rooted, 1) };
+    Truth { class, bracket: [from, to], work }
+}
+
+/// The truth on what a ray stands for.
+///
+/// # Errors
+/// If the work was asked to stop, or for the footprints of a batch.
+pub fn classify(
+    oracle: &dyn Oracle,
+    sampling: Sampling,
+    rays: Rays<'_>,
+    indices: &[usize],
+    progress: &Progress,
+) -> Result<Vec<Truth>, Error> {
+    match sampling {
+        Sampling::Ray => oracle.classify(rays, indices, progress),
+        Sampling::Footprint => Footprints(oracle).classify(rays, indices, progress),
     }
 }
 
@@ -246,6 +321,59 @@ mod tests {
         let nearer = RayBatch { range: [0.0, 1.0], ..batch };
         assert_eq!(ask(Rays::Batch(&nearer), &[0, 1]), [0, 1]);
         assert_eq!(asked(), 7);
+    }
+
+    #[test]
+    fn a_pixel_has_the_first_root_of_its_rays() {
+        let truth = |class, bracket| Truth { class, bracket, work: Work::default() };
+        let none = truth(Class::None, [f64::INFINITY; 2]);
+        let of = |rays: &[Truth]| {
+            let all: Vec<_> = [none].iter().chain(rays).copied().collect();
+            let first = first(&all);
+            (first.class, first.bracket)
+        };
+        assert_eq!(of(&[]), (Class::None, [f64::INFINITY; 2]));
+        let near = truth(Class::Tangential, [1.0, 1.25]);
+        let far = truth(Class::Transversal, [2.0, 2.5]);
+        let open = truth(Class::Undecidable, [0.5, 3.0]);
+        assert_eq!(of(&[far]), (Class::Transversal, [2.0, 2.5]));
+        assert_eq!(of(&[near]), (Class::Tangential, [1.0, 1.25]));
+        assert_eq!(of(&[far, near]), (Class::Transversal, [1.0, 1.25]));
+        assert_eq!(of(&[open]), (Class::Undecidable, [0.5, 3.0]));
+        // A root may lie where it is not decided, and surely lies where it is known.
+        assert_eq!(of(&[open, far]), (Class::Transversal, [0.5, 2.5]));
+        assert_eq!(of(&[open, far, near]), (Class::Transversal, [0.5, 1.25]));
+    }
+
+    #[test]
+    fn footprints_ask_for_sixteen_rays_a_pixel() {
+        struct Right;
+        impl Oracle for Right {
+            /// Rays to the right of the image's middle have a root at their distance from it.
+            fn classify(
+                &self,
+                rays: Rays<'_>,
+                indices: &[usize],
+                _: &Progress,
+            ) -> Result<Vec<Truth>, Error> {
+                let [right, _, _] = view(4, 3).camera().frame();
+                let of = |&i: &usize| {
+                    let t = rays.get(i).direction.as_dvec3().dot(right);
+                    let class = if t > 0.01 { Class::Transversal } else { Class::None };
+                    Truth { class, bracket: [t; 2], work: Work::default() }
+                };
+                Ok(indices.iter().map(of).collect())
+            }
+        }
+        let view = view(4, 3);
+        let classify = |rays, indices: &[usize]| {
+            let truths = Footprints(&Right).classify(rays, indices, &Progress::new());
+            truths.map(|truths| truths.iter().map(|t| t.class).collect::<Vec<_>>())
+        };
+        let row = classify(Rays::View(&view), &[4, 5, 6, 7]).unwrap();
+        assert_eq!(row, [Class::None, Class::None, Class::Transversal, Class::Transversal]);
+        let batch = RayBatch::new(vec![view.ray(0, 0)]);
+        assert!(matches!(classify(Rays::Batch(&batch), &[0]), Err(Error::Unsupported(_))));
     }
 
     #[test]

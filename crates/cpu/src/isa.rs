@@ -4,7 +4,7 @@ use zeroset_ia::Isa;
 use zeroset_raycast::{Knob, KnobError, knob};
 
 /// The knob with its value; `None` is the widest set that the machine has.
-pub(crate) fn knob(isa: Option<Isa>) -> Knob {
+pub fn knob(isa: Option<Isa>) -> Knob {
     Knob {
         name: "isa",
         value: isa.map_or("auto", Isa::name).into(),
@@ -12,9 +12,11 @@ pub(crate) fn knob(isa: Option<Isa>) -> Knob {
     }
 }
 
-/// Reads the knob's value. Sets that this machine lacks are refused: a record must not name what
-/// did not run.
-pub(crate) fn read(value: &str) -> Result<Option<Isa>, KnobError> {
+/// Reads the knob's value.
+///
+/// # Errors
+/// For what is none, and for sets that this machine lacks: a record must not name what did not run.
+pub fn read(value: &str) -> Result<Option<Isa>, KnobError> {
     let mut choices = vec![("auto", None)];
     choices.extend(Isa::available().into_iter().map(|isa| (isa.name(), Some(isa))));
     knob::choice("isa", value, &choices)

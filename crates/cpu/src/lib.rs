@@ -9,8 +9,9 @@
 pub mod amp;
 mod bisection;
 mod implicit;
-mod isa;
+pub mod isa;
 pub mod normals;
+mod numbers;
 mod reference;
 pub mod tiles;
 
@@ -21,4 +22,5 @@ pub use bisection::{
 };
 pub use implicit::Implicit;
 pub use normals::Normals;
+pub use numbers::Numbers;
 pub use reference::{Class, PreparedReference, Reference, Truth};

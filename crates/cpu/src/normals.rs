@@ -18,7 +18,7 @@ pub enum Normals {
 }
 
 /// The knob `normals` with its value.
-pub(crate) fn knob(normals: Normals) -> Knob {
+pub fn knob(normals: Normals) -> Knob {
     Knob {
         name: "normals",
         value: match normals {
@@ -30,7 +30,10 @@ pub(crate) fn knob(normals: Normals) -> Knob {
 }
 
 /// Reads the knob's value.
-pub(crate) fn read(value: &str) -> Result<Normals, KnobError> {
+///
+/// # Errors
+/// If it is neither `gradient` nor a width above 0.
+pub fn read(value: &str) -> Result<Normals, KnobError> {
     if value.trim() == "gradient" {
         return Ok(Normals::Gradient);
     }

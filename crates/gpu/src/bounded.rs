@@ -18,7 +18,7 @@ const MARGIN: f64 = f64::from_bits((1023 - 16) << 52);
 ///
 /// # Errors
 /// If it does not hold, or the domain is out of single precision.
-pub(crate) fn check(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
+pub fn check(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
     let refused = |why: &str| {
         Err(Unsupported(format!(
             "on this domain {why}; intervals on devices take functions that are defined and bounded \

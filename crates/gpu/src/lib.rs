@@ -12,7 +12,7 @@
 
 pub mod amp;
 pub mod bisection;
-mod bounded;
+pub mod bounded;
 mod chunks;
 mod compiled;
 pub mod device;

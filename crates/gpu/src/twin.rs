@@ -100,17 +100,13 @@ impl<T: Twin> Method for OnDevice<T> {
         let of_lanes = ["isa", "packet", "arithmetic", "poles", "delta"];
         let mut knobs = self.twin.knobs();
         knobs.retain(|knob| !of_lanes.contains(&knob.name));
-        knobs.push(Knob {
-            name: "device",
-            value: self.device.to_string(),
-            doc: "where it runs: a number or a part of a name in the list of `zeroset devices`, or auto: what the variable ZEROSET_DEVICE says, else the first (default auto)",
-        });
+        knobs.push(device::knob(&self.device));
         knobs
     }
 
     fn set(&mut self, name: &str, value: &str) -> Result<(), KnobError> {
         match name {
-            "device" => self.device = read_device(value)?,
+            "device" => self.device = device::read_knob(value)?,
             name if self.knobs().iter().any(|knob| knob.name == name) => {
                 self.twin.set(name, value)?;
             }
@@ -126,19 +122,6 @@ impl<T: Twin> Method for OnDevice<T> {
     fn boxed(&self) -> Box<dyn Method> {
         Box::new(self.clone())
     }
-}
-
-/// Reads the knob `device`: a device that there is.
-fn read_device(value: &str) -> Result<Choice, KnobError> {
-    let choice = Choice::read(value);
-    if choice == Choice::Auto {
-        return Ok(choice);
-    }
-    device::find(&choice).map(|_| choice).map_err(|why| KnobError::Value {
-        knob: "device".into(),
-        value: value.into(),
-        expected: format!("auto, or a device by its number or a part of its name; {why}"),
-    })
 }
 
 struct Prepared<T: Twin> {

@@ -100,11 +100,18 @@ impl View {
     /// single precision, so that t is a distance to about seven digits.
     #[inline(always)]
     pub fn ray(&self, column: usize, row: usize) -> Ray {
+        self.ray_at(column as f64 + 0.5, row as f64 + 0.5)
+    }
+
+    /// The ray through a place in the image, in pixels from the left and from the top: pixel (c, r)
+    /// covers [c, c + 1] and [r, r + 1].
+    #[inline(always)]
+    pub fn ray_at(&self, column: f64, row: f64) -> Ray {
         let [right, up, forward] = self.frame;
         // In units of half the image's height.
         let half = 0.5 * self.height as f64;
-        let u = (column as f64 + 0.5 - 0.5 * self.width as f64) / half;
-        let v = (0.5 * self.height as f64 - (row as f64 + 0.5)) / half;
+        let u = (column - 0.5 * self.width as f64) / half;
+        let v = (0.5 * self.height as f64 - row) / half;
         let offset = self.extent * (u * right + v * up);
         let (origin, direction) = match self.camera.projection {
             Projection::Perspective { .. } => (self.camera.eye, forward + offset),

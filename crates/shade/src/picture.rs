@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use glam::Vec3;
 use zeroset_raycast::{Hits, View};
 
-use crate::{Legend, ShadeError, legend, png, write_atomically};
+use crate::{Colour, Legend, ShadeError, legend, png, write_atomically};
 
 /// Pixels of three bytes encoded as sRGB, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,6 +102,28 @@ impl Picture {
         Ok(picture.described(self.description.as_str()))
     }
 
+    /// The picture at a smaller size: each pixel is the mean of `side` by `side` of these, in linear light.
+    ///
+    /// # Errors
+    /// [`ShadeError::Empty`] if there are not so many.
+    pub fn averaged(&self, side: usize) -> Result<Self, ShadeError> {
+        if side == 1 {
+            return Ok(self.clone());
+        }
+        let mut picture =
+            Self::filled(self.width / side.max(1), self.height / side.max(1), [0; 3])?;
+        let width = picture.width;
+        for (i, pixel) in picture.pixels.iter_mut().enumerate() {
+            let (column, row) = (side * (i % width), side * (i / width));
+            let rows = self.pixels.chunks(self.width).skip(row).take(side);
+            let part = rows.flat_map(|row| &row[column..column + side]);
+            let sum: Vec3 = part.map(|bytes| Colour::from_bytes(*bytes).0).sum();
+            *pixel = Colour(sum / (side * side) as f32).bytes();
+        }
+        picture.legend.clone_from(&self.legend);
+        Ok(picture.described(self.description.as_str()))
+    }
+
     /// Saves the picture as PNG, with its description. Missing folders are created; the file is
     /// whole or absent.
     ///
@@ -190,6 +213,18 @@ mod tests {
         picture.paste(&blot, [9, 9], 1);
         picture.paste(&blot, [0, 1], 2);
         assert_eq!(picture.pixels(), [[0; 3], [0; 3], [0; 3], [3; 3], [3; 3], [3; 3]]);
+    }
+
+    #[test]
+    fn pictures_are_averaged_in_linear_light() {
+        let (black, white) = ([0; 3], [255; 3]);
+        let pixels = [[black, white, white, white, black], [black, white, white, white, black]];
+        let picture = Picture::from_pixels(5, 2, pixels.concat()).unwrap();
+        let half = picture.averaged(2).unwrap();
+        assert_eq!((half.width(), half.height()), (2, 1));
+        assert_eq!(half.pixels(), [[188; 3], white]);
+        assert_eq!(picture.averaged(1).unwrap(), picture);
+        assert!(matches!(picture.averaged(3), Err(ShadeError::Empty { .. })));
     }
 
     #[test]

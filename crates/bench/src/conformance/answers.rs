@@ -2,12 +2,12 @@
 
 use rayon::ThreadPoolBuilder;
 use zeroset_raycast::{
-    Certificate, Error, Hit, Hits, Intersector, Progress, Ray, RayBatch, Rays, Request,
+    Certificate, Error, Hit, Hits, Intersector, Progress, Ray, RayBatch, Rays, Request, Sampling,
 };
 
 use super::cases::Case;
 use super::suite::Suite;
-use crate::{Class, Truth, judge::lie};
+use crate::{Class, Truth, judge::lie, truth};
 
 impl Suite<'_> {
     /// The form and the truth of the answers to one set of rays.
@@ -37,7 +37,7 @@ impl Suite<'_> {
                 if hit.certificate != Certificate::MISS || hit.work.nonfinite == 0 {
                     invalid.push(format!("{}, {:?}", told(), hit.work));
                 }
-            } else if hit.certificate.is_hit() {
+            } else if hit.certificate.is_hit() && self.method.sampling() == Sampling::Ray {
                 let clip = self.scene.domain.clip(ray, rays.range());
                 if !clip.is_some_and(|clip| clip.outer[0] <= lo && hi <= clip.outer[1]) {
                     range.push(format!("{}, clip {:?}", told(), clip.map(|c| c.outer)));
@@ -74,9 +74,10 @@ impl Suite<'_> {
         }
     }
 
-    /// The truth about the rays of these indices, all that are valid.
+    /// The truth about the rays of these indices, all that are valid, or about their pixels.
     fn truths(&mut self, place: &str, rays: Rays<'_>, indices: &[usize]) -> Option<Vec<Truth>> {
-        match self.oracle.classify(rays, indices, &Progress::new()) {
+        let sampling = self.method.sampling();
+        match truth::classify(self.oracle, sampling, rays, indices, &Progress::new()) {
             Ok(truths) => Some(truths),
             Err(error) => {
                 self.fail("the reference classifies the rays", format!("{place}: {error}"));

@@ -7,7 +7,7 @@ use std::time::Duration;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use zeroset_gpu::{Choice, device};
-use zeroset_raycast::{Camera, Domain, Projection, Rays, Scene, View, Work};
+use zeroset_raycast::{Camera, Domain, Projection, Rays, Sampling, Scene, View, Work};
 
 use crate::machine::now;
 use crate::{Class, Comparison, Machine, Run, Tally, Verdict};
@@ -169,11 +169,19 @@ impl Record {
             shared.camera = view.camera().to_string();
             (shared.width, shared.height) = (view.width, view.height);
         }
-        if let Some(truths) = &comparison.truths {
-            shared.judged_step = truths.sample.step;
-            shared.seed = truths.sample.seed;
-        }
-        comparison.runs.iter().map(|run| shared.clone().with_run(run)).collect()
+        let row = |run: &Run| {
+            let mut row = shared.clone();
+            let truths = match run.sampling {
+                Sampling::Ray => &comparison.truths,
+                Sampling::Footprint => &comparison.footprints,
+            };
+            if let Some(truths) = truths {
+                row.judged_step = truths.sample.step;
+                row.seed = truths.sample.seed;
+            }
+            row.with_run(run)
+        };
+        comparison.runs.iter().map(row).collect()
     }
 
     fn with_run(mut self, run: &Run) -> Self {

@@ -7,12 +7,13 @@ use zeroset_raycast::{Error, Hit, Hits, Intersector, Method, Progress, Ray, Rays
 use super::answers::Answers;
 use super::bundle::{self, Bundle};
 use super::cut::{Axis, Cut};
-use super::form::{Form, Numbers};
+use super::form::Form;
 use super::march::{FIRST, MAX_DEPTH, March, RawPairs, RawVectors, SetVectors};
 use super::method::{Algorithm, Bisection, Finishing, Packets, Stop};
 use super::monotone::Refining;
 use super::settler::{Goal, bisections};
 use crate::implicit::Implicit;
+use crate::numbers::Numbers;
 use crate::{normals, tiles};
 
 pub(super) struct Prepared {

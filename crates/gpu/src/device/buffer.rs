@@ -1,6 +1,7 @@
 //! Buffers of plain values.
 
 use std::marker::PhantomData;
+use std::sync::atomic::Ordering;
 
 use bytemuck::Pod;
 
@@ -26,6 +27,10 @@ impl<T> Buffer<T> {
     }
 }
 
+/// What values are read through.
+#[derive(Debug)]
+pub struct Reader<T>(Buffer<T>);
+
 impl Device {
     /// Room for `len` values that kernels read and write.
     ///
@@ -43,11 +48,22 @@ impl Device {
         self.buffer(len, wgpu::BufferUsages::UNIFORM)
     }
 
+    /// Room for `len` counts of workgroups along x, y and z, and one number more, that kernels write and that
+    /// tell how many workgroups of [later ones](super::Groups::Indirect) run.
+    ///
+    /// # Errors
+    /// If there is not enough memory.
+    pub fn counts_of_groups(&self, len: usize) -> Result<Buffer<[u32; 4]>, DeviceError> {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT;
+        self.buffer(len, usage | wgpu::BufferUsages::COPY_SRC)
+    }
+
     pub(super) fn buffer<T: Pod>(
         &self,
         len: usize,
         usage: wgpu::BufferUsages,
     ) -> Result<Buffer<T>, DeviceError> {
+        self.made.fetch_add(1, Ordering::Relaxed);
         let raw = self.guarded(|| {
             Ok(self.device.create_buffer(&wgpu::BufferDescriptor {
                 label: None,
@@ -87,19 +103,40 @@ impl Device {
         if len == 0 {
             return Ok(Vec::new());
         }
+        self.read_with(&self.reader(len)?, buffer, len)
+    }
+
+    /// Room through which up to `len` values are read, again and again.
+    ///
+    /// # Errors
+    /// If there is not enough memory.
+    pub fn reader<T: Pod>(&self, len: usize) -> Result<Reader<T>, DeviceError> {
+        Ok(Reader(self.buffer(len, wgpu::BufferUsages::MAP_READ)?))
+    }
+
+    /// As [`read`](Self::read), without making anything on the device.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    ///
+    /// # Panics
+    /// If the buffer has fewer values, or the reader has no room for them.
+    pub fn read_with<T: Pod>(
+        &self,
+        reader: &Reader<T>,
+        buffer: &Buffer<T>,
+        len: usize,
+    ) -> Result<Vec<T>, DeviceError> {
+        assert!(len <= buffer.len && len <= reader.0.len, "{len} values of {}", buffer.len);
+        self.read.fetch_add(1, Ordering::Relaxed);
+        let copy = &reader.0.raw;
         self.guarded(|| {
             let size = ((len * size_of::<T>()) as u64).next_multiple_of(4);
-            let copy = self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: None,
-                size,
-                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            });
             let mut encoder = self.device.create_command_encoder(&Default::default());
-            encoder.copy_buffer_to_buffer(&buffer.raw, 0, &copy, 0, size);
+            encoder.copy_buffer_to_buffer(&buffer.raw, 0, copy, 0, size);
             self.queue.submit([encoder.finish()]);
             let (sender, receiver) = std::sync::mpsc::channel();
-            copy.map_async(wgpu::MapMode::Read, .., move |result| {
+            copy.map_async(wgpu::MapMode::Read, 0..size, move |result| {
                 // The receiver is gone only after an error below.
                 let _ = sender.send(result);
             });
@@ -110,8 +147,10 @@ impl Device {
                 Ok(Err(e)) => return Err(invalid(e.to_string())),
                 Err(_) => return Err(invalid("a buffer was not mapped".into())),
             }
-            let view = copy.get_mapped_range(..).map_err(|e| invalid(e.to_string()))?;
+            let view = copy.get_mapped_range(0..size).map_err(|e| invalid(e.to_string()))?;
             let values = bytemuck::pod_collect_to_vec(&view[..len * size_of::<T>()]);
+            drop(view);
+            copy.unmap();
             Ok(values)
         })
     }

@@ -1,8 +1,9 @@
 //! Kernels: compiled shaders, run over arrays.
 
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use super::{Buffer, Device, DeviceError};
+use super::{Buffer, Device, DeviceError, Groups, Step};
 
 /// Invocations in a workgroup, as every shader here declares.
 const WORKGROUP: u32 = 64;
@@ -21,9 +22,9 @@ pub enum Binding {
 /// A compute shader, compiled.
 #[derive(Debug)]
 pub struct Kernel {
-    pipeline: wgpu::ComputePipeline,
-    layout: wgpu::BindGroupLayout,
-    bindings: usize,
+    pub(super) pipeline: wgpu::ComputePipeline,
+    pub(super) layout: wgpu::BindGroupLayout,
+    pub(super) bindings: usize,
 }
 
 impl Device {
@@ -55,6 +56,7 @@ impl Device {
                 count: None,
             })
             .collect();
+        self.made.fetch_add(1, Ordering::Relaxed);
         self.guarded(|| {
             let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(label),
@@ -95,72 +97,10 @@ impl Device {
         buffers: &[&dyn AsBinding],
         invocations: usize,
     ) -> Result<Option<Duration>, DeviceError> {
-        assert_eq!(buffers.len(), kernel.bindings, "one buffer a binding");
-        let entries: Vec<_> = buffers
-            .iter()
-            .zip(0..)
-            .map(|(buffer, binding)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.raw().as_entire_binding(),
-            })
-            .collect();
-        let clock = self.clock()?;
-        self.guarded(|| {
-            let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout: &kernel.layout,
-                entries: &entries,
-            });
-            let mut encoder = self.device.create_command_encoder(&Default::default());
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: None,
-                timestamp_writes: clock.as_ref().map(|clock| wgpu::ComputePassTimestampWrites {
-                    query_set: &clock.queries,
-                    beginning_of_pass_write_index: Some(0),
-                    end_of_pass_write_index: Some(1),
-                }),
-            });
-            pass.set_pipeline(&kernel.pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            let [columns, rows] = grid(invocations);
-            pass.dispatch_workgroups(columns, rows, 1);
-            drop(pass);
-            if let Some(clock) = &clock {
-                encoder.resolve_query_set(&clock.queries, 0..2, &clock.ticks.raw, 0);
-            }
-            self.queue.submit([encoder.finish()]);
-            self.wait()
-        })?;
-        clock.map(|clock| self.elapsed(&clock)).transpose()
+        let (bound, clock) = (self.bind(kernel, buffers)?, self.clock()?);
+        let step = Step { bound: &bound, groups: Groups::Invocations(invocations) };
+        self.run_sequence(&[step], clock.as_ref())
     }
-
-    /// Two timestamps, if the device has them.
-    fn clock(&self) -> Result<Option<Clock>, DeviceError> {
-        if !self.report.timestamps {
-            return Ok(None);
-        }
-        let queries = self.guarded(|| {
-            Ok(self.device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: None,
-                ty: wgpu::QueryType::Timestamp,
-                count: 2,
-            }))
-        })?;
-        let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
-        Ok(Some(Clock { queries, ticks: self.buffer(2, usage)? }))
-    }
-
-    fn elapsed(&self, clock: &Clock) -> Result<Duration, DeviceError> {
-        let ticks = self.read(&clock.ticks, 2)?;
-        let nanoseconds =
-            ticks[1].saturating_sub(ticks[0]) as f64 * f64::from(self.queue.get_timestamp_period());
-        Ok(Duration::from_nanos(nanoseconds as u64))
-    }
-}
-
-struct Clock {
-    queries: wgpu::QuerySet,
-    ticks: Buffer<u64>,
 }
 
 /// A buffer of any type, to be bound.
@@ -180,7 +120,7 @@ impl<T> AsBinding for Buffer<T> {
 const LONGEST_SIDE: u32 = 65_535;
 
 /// Columns and rows of a grid with at least that many invocations.
-fn grid(invocations: usize) -> [u32; 2] {
+pub(super) fn grid(invocations: usize) -> [u32; 2] {
     let groups = invocations.div_ceil(WORKGROUP as usize) as u32;
     let columns = groups.clamp(1, LONGEST_SIDE);
     [columns, groups.div_ceil(columns).max(1)]

@@ -1,59 +1,19 @@
 //! Devices: finding, choosing and opening them, and what can go wrong on them.
 
 mod buffer;
+mod choice;
 mod kernel;
+mod sequence;
 
 use std::collections::HashMap;
-use std::fmt;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
-pub use buffer::Buffer;
+pub use buffer::{Buffer, Reader};
+pub use choice::{Choice, VARIABLE, knob, read_knob};
 pub use kernel::{AsBinding, Binding, Kernel};
+pub use sequence::{Bound, Clock, Groups, Step};
 use zeroset_raycast::Error;
-
-/// The environment's variable that chooses a device where nothing else does.
-pub const VARIABLE: &str = "ZEROSET_DEVICE";
-
-/// Which device is meant.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Choice {
-    /// What the variable [`ZEROSET_DEVICE`](VARIABLE) says; without it, a discrete GPU before an
-    /// integrated one before one in software.
-    #[default]
-    Auto,
-    /// The number in the list of [`adapters`], or a part of the name.
-    Named(String),
-}
-
-impl Choice {
-    /// Reads `auto`, a number or a part of a name.
-    pub fn read(text: &str) -> Self {
-        match text.trim() {
-            "auto" => Self::Auto,
-            name => Self::Named(name.into()),
-        }
-    }
-
-    /// The choice with the environment's in place of `auto`.
-    fn resolved(&self) -> Self {
-        match self {
-            Self::Auto => match std::env::var(VARIABLE) {
-                Ok(text) if !text.trim().is_empty() => Self::read(&text),
-                _ => Self::Auto,
-            },
-            named => named.clone(),
-        }
-    }
-}
-
-impl fmt::Display for Choice {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Auto => f.write_str("auto"),
-            Self::Named(name) => f.write_str(name),
-        }
-    }
-}
 
 /// What is wrong with a device.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -137,7 +97,13 @@ pub fn adapters() -> Vec<AdapterReport> {
 /// The adapters; real GPUs first.
 fn found() -> Vec<wgpu::Adapter> {
     static INSTANCE: LazyLock<wgpu::Instance> = LazyLock::new(|| {
-        wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        if !cfg!(debug_assertions) {
+            // Kernels write counts of workgroups within every device's limit. Checking them takes another
+            // kernel each time.
+            descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
+        }
+        wgpu::Instance::new(descriptor)
     });
     let mut adapters = pollster::block_on(INSTANCE.enumerate_adapters(wgpu::Backends::PRIMARY));
     adapters.sort_by_key(|adapter| match adapter.get_info().device_type {
@@ -195,6 +161,9 @@ pub struct Device {
     lost: Arc<Mutex<Option<String>>>,
     /// One user at a time: errors and times belong to who caused them.
     turn: Mutex<()>,
+    /// What was made on it so far, and what was read.
+    made: AtomicUsize,
+    read: AtomicUsize,
 }
 
 impl Device {
@@ -233,7 +202,8 @@ impl Device {
                 *note.lock().unwrap_or_else(PoisonError::into_inner) = Some(message);
             }
         });
-        Ok(Self { report, device, queue, lost, turn: Mutex::new(()) })
+        let (made, read) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        Ok(Self { report, device, queue, lost, turn: Mutex::new(()), made, read })
     }
 
     /// What it is.
@@ -244,6 +214,12 @@ impl Device {
     /// The largest buffer that a kernel may use, in bytes.
     pub fn largest_binding(&self) -> u64 {
         self.device.limits().max_storage_buffer_binding_size
+    }
+
+    /// How many buffers, bindings, kernels and clocks were made on it so far, and how many buffers were read:
+    /// for tests of what a frame does.
+    pub fn counts(&self) -> [usize; 2] {
+        [&self.made, &self.read].map(|count| count.load(Ordering::Relaxed))
     }
 
     /// Was it lost? Then it is of no use any more.
