@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use zeroset::beam::{Beam, Level, Refinement, Start, Subdivision};
-use zeroset::bench::{Class, Footprints, Oracle, Sample, truth};
+use zeroset::beam::{Beam, Enclosure, Level, Refinement, Start, Subdivision};
+use zeroset::bench::{Class, Footprints, Oracle, Sample, Truth, truth};
 use zeroset::raycast::{Hits, Method, Progress, Rays, Request};
 use zeroset::shade::{Environment, Picture, shaded};
 
@@ -49,32 +49,40 @@ pub(crate) fn levels() -> Result<(), Failure> {
     save("fig-1-levels.png", &Picture::from_pixels(512, 512, pixels)?)
 }
 
-/// Pixels that are painted by mistake: no ray of 16 meets the surface.
+/// Pixels that are painted by mistake, by intervals and by affine forms: no ray of 16 meets the surface.
 pub(crate) fn painted() -> Result<(), Failure> {
     println!("\n## Painted by mistake, {JUDGED}x{JUDGED}, outward\n");
-    println!("| surface | pixels of the surface | painted by mistake | share | lost |");
-    println!("|---|---|---|---|---|");
+    println!(
+        "| surface | pixels of the surface |{}",
+        " painted by mistake | share | lost | evaluations a pixel |".repeat(2)
+    );
+    println!("|{}", "---|".repeat(10));
     for surface_of in &SURFACES {
         let scene = surface(surface_of.id)?;
         let view = view(&scene, JUDGED);
         let rays = Rays::View(&view);
-        let mut hits = Hits::new(Request::First, rays.len());
-        Beam::adaptive().prepare(&scene)?.intersect(rays, &mut hits, &Progress::new())?;
         let oracle = truth::reference(&scene)?;
         let sample = Sample::every(1, rays);
         let truths = Footprints(&oracle).classify(rays, &sample.indices, &Progress::new())?;
-        let [mut seen, mut mistaken, mut lost] = [0; 3];
-        for (truth, certificate) in truths.iter().zip(&hits.certificate) {
-            let is_seen = matches!(truth.class, Class::Transversal | Class::Tangential);
-            seen += usize::from(is_seen);
-            mistaken += usize::from(truth.class == Class::None && certificate.is_hit());
-            lost += usize::from(is_seen && !certificate.is_hit());
+        let is_seen = |truth: &Truth| matches!(truth.class, Class::Transversal | Class::Tangential);
+        let seen = truths.iter().filter(|truth| is_seen(truth)).count();
+        let mut line = format!("| {} | {seen} |", surface_of.name);
+        for enclosure in [Enclosure::Interval, Enclosure::Affine] {
+            let method = Beam { enclosure, ..Beam::adaptive() };
+            let mut hits = Hits::new(Request::First, rays.len());
+            let report = method.prepare(&scene)?.intersect(rays, &mut hits, &Progress::new())?;
+            let [mut mistaken, mut lost] = [0; 2];
+            for (truth, certificate) in truths.iter().zip(&hits.certificate) {
+                mistaken += usize::from(truth.class == Class::None && certificate.is_hit());
+                lost += usize::from(is_seen(truth) && !certificate.is_hit());
+            }
+            line += &format!(
+                " {mistaken} | {:.1} % | {lost} | {:.1} |",
+                100.0 * mistaken as f64 / seen as f64,
+                report.work.intervals as f64 / rays.len() as f64
+            );
         }
-        println!(
-            "| {} | {seen} | {mistaken} | {:.1} % | {lost} |",
-            surface_of.name,
-            100.0 * mistaken as f64 / seen as f64
-        );
+        println!("{line}");
     }
     Ok(())
 }

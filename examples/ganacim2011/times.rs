@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use zeroset::beam::{Beam, BeamGpu, Refinement};
+use zeroset::beam::{Beam, BeamGpu, Enclosure, Refinement};
 use zeroset::gpu::{Choice, Device};
 use zeroset::ia::Rounding;
 use zeroset::raycast::{Hits, Intersector, Method, Progress, Rays, Request, View};
@@ -100,10 +100,16 @@ pub(crate) fn on_the_device() -> Result<(), Failure> {
                 }
             }
         });
-        let result = [Rounding::Nearest, Rounding::Outward].into_iter().try_for_each(|rounding| {
-            let what = format!("on the device, rounded {rounding:?}").to_lowercase();
+        let kinds = [
+            (Rounding::Nearest, Enclosure::Interval),
+            (Rounding::Outward, Enclosure::Interval),
+            (Rounding::Outward, Enclosure::Affine),
+        ];
+        let result = kinds.into_iter().try_for_each(|(rounding, enclosure)| {
+            let what = format!("on the device, {rounding:?}, {enclosure:?}").to_lowercase();
             tables(&what, &|refinement| {
-                Box::new(BeamGpu::auto(Beam { rounding, ..Beam::new(refinement) }))
+                let twin = Beam { rounding, enclosure, ..Beam::new(refinement) };
+                Box::new(BeamGpu::auto(twin))
             })
         });
         stop.store(true, Ordering::Relaxed);

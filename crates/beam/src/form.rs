@@ -1,7 +1,7 @@
 //! The numbers with which beams are cast: intervals, or affine forms over (u, v, t).
 
 use zeroset_ia::interval::Flavor;
-use zeroset_ia::{Affine, Interval, Number, Packet};
+use zeroset_ia::{Affine, Interval, Number, Real};
 
 /// What a point of a beam depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,7 +12,7 @@ pub(crate) enum Symbol {
 }
 
 /// A number that holds all values over a beam's piece.
-pub(crate) trait Form<R: Packet>: Number {
+pub(crate) trait Form<R: Real>: Number {
     /// Can it hold nothing, as where a function is undefined?
     const CAN_BE_EMPTY: bool;
     /// One value.
@@ -29,7 +29,7 @@ pub(crate) trait Form<R: Packet>: Number {
     fn range(&self) -> [R; 2];
 }
 
-impl<R: Packet, F: Flavor> Form<R> for Interval<R, F> {
+impl<R: Real, F: Flavor> Form<R> for Interval<R, F> {
     const CAN_BE_EMPTY: bool = F::SET;
 
     #[inline(always)]
@@ -64,7 +64,7 @@ impl<R: Packet, F: Flavor> Form<R> for Interval<R, F> {
 /// An affine form over (u, v, t).
 pub(crate) type AffineBeam<R> = Affine<R, 3>;
 
-impl<R: Packet> Form<R> for AffineBeam<R> {
+impl<R: Real> Form<R> for AffineBeam<R> {
     const CAN_BE_EMPTY: bool = false;
 
     #[inline(always)]

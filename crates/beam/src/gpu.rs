@@ -15,16 +15,17 @@ use zeroset_gpu::bounded;
 use zeroset_gpu::device::{
     self, AsBinding, Binding, Bound, Buffer, Clock, Groups, Kernel, Reader, Step,
 };
-use zeroset_gpu::program::{Module, Numbers};
+use zeroset_gpu::program::{Module, Numbers, Parts, Trace};
 use zeroset_gpu::{Choice, Device, DeviceError};
-use zeroset_ia::Rounding;
+use zeroset_ia::{Interval, Rounding};
 use zeroset_raycast::{
     Camera, Certificate, Domain, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Progress,
     Rays, Report, Request, Sampling, Scene, Unsupported, View, Work, knob,
 };
 
 use crate::cast::DEEPEST;
-use crate::method::{Beam, Refinement, Stop};
+use crate::form::{AffineBeam, Form, Symbol};
+use crate::method::{Beam, Enclosure, Refinement, Stop};
 use crate::optics::{Optics, Varying};
 use crate::prepared;
 use crate::quadtree;
@@ -78,7 +79,7 @@ impl Method for BeamGpu {
         self.twin.supports(scene)?;
         // Wrong parameters and domains are for preparing to tell.
         if let Ok(implicit) = Implicit::new(self.id(), scene) {
-            bounded::check(&implicit.tape, &implicit.domain)?;
+            check(&self.twin, &implicit)?;
             function(&self.twin, &implicit)?;
         }
         self.find_device()
@@ -135,11 +136,48 @@ const CAST: &str = include_str!("shaders/cast.wgsl");
 const SCAN: &str = include_str!("shaders/scan.wgsl");
 const QUARTER: &str = include_str!("shaders/quarter.wgsl");
 
-/// The shader's functions so far: F over intervals.
+/// What the shader computes with.
+fn numbers(method: &Beam) -> Numbers {
+    match method.enclosure {
+        Enclosure::Interval => Numbers::Interval,
+        Enclosure::Affine => Numbers::Affine,
+    }
+}
+
+/// May a device's numbers be trusted on a scene?
+pub(crate) fn check(method: &Beam, implicit: &Implicit) -> Result<(), Unsupported> {
+    match method.enclosure {
+        Enclosure::Interval => bounded::check(&implicit.tape, &implicit.domain),
+        Enclosure::Affine => bounded::check_affine(&implicit.tape, &implicit.domain),
+    }
+}
+
+/// The shader's functions so far: F.
 fn function(method: &Beam, implicit: &Implicit) -> Result<Module, Unsupported> {
     let mut module = Module::new(method.rounding);
-    module.function("value", &implicit.tape, Numbers::Interval)?;
+    module.function("value", &implicit.tape, numbers(method))?;
     Ok(module)
+}
+
+/// Adds what the shader does with forms, as the CPU does.
+fn record<N: Form<Trace> + Parts>(module: &mut Module) {
+    let interval = |x: &[Trace]| Interval::<Trace>::new(x[0], x[1]);
+    let (one, form) = (1, N::WIDTH);
+    let first = |x: &[Trace]| N::from_parts(&x[..form]);
+    for (name, symbol) in [("form_u", Symbol::U), ("form_v", Symbol::V), ("form_t", Symbol::T)] {
+        module.record(name, &[2], |x| N::variable(interval(x), symbol));
+    }
+    module.record("form_point", &[one], |x| N::point(x[0]));
+    module.record("form_widened", &[form, one], |x| first(x).widened(x[form]));
+    module.record("form_along", &[form, form, form], |x| {
+        let [direction, t] = [form, 2 * form].map(|at| N::from_parts(&x[at..at + form]));
+        first(x).along(direction, t)
+    });
+    module.record("form_cut", &[form, 2], |x| first(x).cut(x[form], x[form + 1]));
+    module.record("form_range", &[form], |x| {
+        let [lo, hi] = first(x).range();
+        Interval::<Trace>::new(lo, hi)
+    });
 }
 
 /// All of the shader's functions, and the text of the kernel that calls them.
@@ -150,11 +188,16 @@ fn shader(
 ) -> Result<(Module, String), Unsupported> {
     let mut module = function(method, implicit)?;
     for (name, tape) in ["lens_x", "lens_y", "lens_z"].into_iter().zip(&optics.tapes) {
-        module.function(name, tape, Numbers::Interval)?;
+        module.function(name, tape, numbers(method))?;
+    }
+    match method.enclosure {
+        Enclosure::Interval => record::<Interval<Trace>>(&mut module),
+        Enclosure::Affine => record::<AffineBeam<Trace>>(&mut module),
     }
     let sees = method.stop == Stop::Seen && implicit.tape.is_continuous();
     let constants = format!(
-        "const PERSPECTIVE = {};\nconst SEES = {sees};\nconst DEEPEST = {DEEPEST}u;\n",
+        "alias Form = {};\nconst PERSPECTIVE = {};\nconst SEES = {sees};\nconst DEEPEST = {DEEPEST}u;\n",
+        numbers(method).type_name(),
         optics.varying == Varying::Direction
     );
     let kernel = constants + CAST;
@@ -390,7 +433,7 @@ impl Canvas {
 impl PreparedOnDevice {
     fn new(method: &BeamGpu, scene: &Scene) -> Result<Self, Error> {
         let implicit = Implicit::new(method.id(), scene)?;
-        bounded::check(&implicit.tape, &implicit.domain)?;
+        check(&method.twin, &implicit)?;
         function(&method.twin, &implicit)?;
         method.find_device()?;
         Ok(Self { method: method.clone(), implicit, state: Mutex::default() })
@@ -540,7 +583,7 @@ impl Intersector for PreparedOnDevice {
     fn set_parameters(&mut self, values: &Parameters) -> Result<(), Error> {
         let mut implicit = self.implicit.clone();
         implicit.set_parameters(values)?;
-        bounded::check(&implicit.tape, &implicit.domain)?;
+        check(&self.method.twin, &implicit)?;
         function(&self.method.twin, &implicit)?;
         self.implicit = implicit;
         Ok(())

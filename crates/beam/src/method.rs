@@ -6,6 +6,7 @@ use zeroset_raycast::{
     Error, Intersector, Knob, KnobError, Method, Sampling, Scene, Unsupported, knob,
 };
 
+use crate::gpu;
 use crate::prepared::PreparedBeams;
 
 /// Which beams are cast.
@@ -149,7 +150,7 @@ impl Method for Beam {
         if self.arithmetic == Arithmetic::Device
             && let Ok(implicit) = Implicit::new(self.id(), scene)
         {
-            zeroset_gpu::bounded::check(&implicit.tape, &implicit.domain)?;
+            gpu::check(self, &implicit)?;
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ use zeroset_raycast::{
 
 use crate::cast::{AffineVectors, Cast, LEAST, RawPairs, SetVectors, Sight};
 use crate::form::AffineBeam;
+use crate::gpu;
 use crate::method::{Arithmetic, Beam, Enclosure, FILLING, Refinement, Start};
 use crate::optics::Optics;
 use crate::quadtree::{self, Level, Subdivision};
@@ -140,7 +141,7 @@ fn numbers(method: &Beam, implicit: &Implicit) -> Result<Numbers, Error> {
         Arithmetic::Double => Numbers::Double,
         Arithmetic::Auto => Numbers::of(&implicit.tape, None, &implicit.domain),
         Arithmetic::Device => {
-            zeroset_gpu::bounded::check(&implicit.tape, &implicit.domain)?;
+            gpu::check(method, implicit)?;
             Numbers::Raw
         }
     })

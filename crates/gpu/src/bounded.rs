@@ -1,7 +1,7 @@
 //! May a device's intervals be trusted on a domain?
 
 use zeroset_expr::{Op, Tape};
-use zeroset_ia::{Binary, Decorated, Decoration, Interval, Mirror, Scalar, portable};
+use zeroset_ia::{Binary, Decorated, Decoration, Interval, Mirror, Scalar, Unary, portable};
 use zeroset_raycast::{Domain, Unsupported};
 
 /// 2^100: sub-values are at most as large.
@@ -19,6 +19,38 @@ const MARGIN: f64 = f64::from_bits((1023 - 16) << 52);
 /// # Errors
 /// If it does not hold, or the domain is out of single precision.
 pub fn check(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
+    check_within(tape, domain, LARGEST)
+}
+
+/// 2^50: sub-values of functions over affine forms are at most as large, so that their linear parts, which may
+/// be larger than the values, do not overflow.
+const LARGEST_AFFINE: f64 = f64::from_bits((1023 + 50) << 52);
+
+/// The same for affine forms, which divide by sub-values, and need their squares too.
+///
+/// # Errors
+/// If it does not hold, or the function divides or takes logarithms.
+pub fn check_affine(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
+    let divides = |op| match op {
+        Op::Div(..) => true,
+        Op::Powi(_, n) => n < 0,
+        Op::Unary(f, _) => {
+            matches!(f, Unary::Log | Unary::Log2 | Unary::Log10 | Unary::Logp1)
+        }
+        _ => false,
+    };
+    if tape.instructions().iter().any(|instruction| divides(instruction.op)) {
+        return Err(Unsupported(
+            "affine forms on devices take functions without quotients and logarithms; use intervals, \
+             or a CPU method"
+                .into(),
+        ));
+    }
+    check_within(tape, domain, LARGEST_AFFINE)
+}
+
+/// The check with another limit for sub-values.
+fn check_within(tape: &Tape, domain: &Domain, largest: f64) -> Result<(), Unsupported> {
     let refused = |why: &str| {
         Err(Unsupported(format!(
             "on this domain {why}; intervals on devices take functions that are defined and bounded \
@@ -33,7 +65,7 @@ pub fn check(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
 
     // An operand that is out of range is not shown as a sub-value.
     let constants = tape.constants().iter().flat_map(portable::enclosure);
-    if !constants.into_iter().all(|c| f64::from(c.abs()) <= LARGEST) {
+    if !constants.into_iter().all(|c| f64::from(c.abs()) <= largest) {
         return refused("a constant is too large");
     }
 
@@ -41,7 +73,7 @@ pub fn check(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
     let mut defined = true;
     let point = sides.map(|[lo, hi]| Decorated::new(Interval::new(lo, hi)));
     tape.evaluator(&point[0]).visit(point, |x| {
-        bounded &= x.interval.is_bounded_by(LARGEST);
+        bounded &= x.interval.is_bounded_by(largest);
         defined &= x.decoration >= Decoration::Defined;
     });
     if !defined {
@@ -57,20 +89,20 @@ pub fn check(tape: &Tape, domain: &Domain) -> Result<(), Unsupported> {
         let point = sides.map(|[lo, hi]| Interval::<Mirror>::new(Mirror(lo), Mirror(hi)));
         for (operand, role) in operands(tape) {
             // The value, and the largest on the way to it.
-            let mut largest = 0.0_f64;
+            let mut greatest = 0.0_f64;
             let x = operand.evaluator(&point[0]).visit(point, |x| {
-                largest = largest.max(size(x));
+                greatest = greatest.max(size(x));
             });
             match role {
                 // The device may round otherwise than the mirror, by some units of what is largest.
-                Role::Divisor if !(least(&x) > MARGIN * largest.max(size(&x))) => {
+                Role::Divisor if !(least(&x) > MARGIN * greatest.max(size(&x))) => {
                     return refused("a divisor may vanish");
                 }
                 Role::Squared if !(size(&x) <= LARGEST_SQUARED) => bounded = false,
                 Role::Divisor | Role::Squared => {}
             }
         }
-        tape.evaluator(&point[0]).visit(point, |x| bounded &= size(x) <= LARGEST);
+        tape.evaluator(&point[0]).visit(point, |x| bounded &= size(x) <= largest);
     }
     if bounded { Ok(()) } else { refused("the function is not bounded") }
 }

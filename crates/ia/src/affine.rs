@@ -1,6 +1,5 @@
 //! Affine forms: a function as a linear part and an error, beside its interval.
 
-use std::array;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::{Binary, Constant, Dual, Interval, Number, Real, Scalar, Unary};
@@ -75,6 +74,30 @@ impl<R: Real, const K: usize> Affine<R, K> {
     #[inline(always)]
     pub fn within(self, range: Interval<R>) -> Self {
         Self { range: self.range.intersection(range), ..self }
+    }
+
+    /// The product with a number in an interval; `range` holds it.
+    #[inline(always)]
+    pub fn scaled(self, factor: Interval<R>, range: Interval<R>) -> Self {
+        let centre = Interval::point(self.centre) * factor;
+        let mut slopes = [centre; K];
+        for (slope, own) in slopes.iter_mut().zip(self.slopes) {
+            *slope = Interval::point(own) * factor;
+        }
+        let size = factor.hi.max(-factor.lo);
+        Self::new(centre, slopes, self.error.mul_up(size), range)
+    }
+
+    /// The sum with a number in an interval; `range` holds it.
+    #[inline(always)]
+    pub fn shifted(self, shift: Interval<R>, range: Interval<R>) -> Self {
+        let [shift, rounding] = split(shift);
+        let centre = Interval::point(self.centre) + Interval::point(shift);
+        let mut slopes = [centre; K];
+        for (slope, own) in slopes.iter_mut().zip(self.slopes) {
+            *slope = Interval::point(own);
+        }
+        Self::new(centre, slopes, self.error.add_up(rounding), range)
     }
 
     /// The sum of the slopes' absolute values, rounded up.
@@ -253,25 +276,12 @@ impl<R: Real, const K: usize> Number for Affine<R, K> {
 
     #[inline(always)]
     fn scale(self, c: &Constant) -> Self {
-        let factor = self.range.constant(c);
-        let centre = Interval::point(self.centre) * factor;
-        let mut slopes = [centre; K];
-        for (i, slope) in slopes.iter_mut().enumerate() {
-            *slope = Interval::point(self.slopes[i]) * factor;
-        }
-        let size = factor.hi.max(-factor.lo);
-        Self::new(centre, slopes, self.error.mul_up(size), self.range.scale(c))
+        self.scaled(self.range.constant(c), self.range.scale(c))
     }
 
     #[inline(always)]
     fn offset(self, c: &Constant) -> Self {
-        let [shift, rounding] = split(self.range.constant(c));
-        let centre = Interval::point(self.centre) + Interval::point(shift);
-        let slopes = array::from_fn(
-            #[inline(always)]
-            |i| Interval::point(self.slopes[i]),
-        );
-        Self::new(centre, slopes, self.error.add_up(rounding), self.range.offset(c))
+        self.shifted(self.range.constant(c), self.range.offset(c))
     }
 
     /// With p the spread of the slopes, `(sum x_i e_i)^2` lies in `p^2 / 2 +- p^2 / 2`.

@@ -1,5 +1,8 @@
 // BeamCast ([ganacim2011] Section III-B) for the cells of a level of the quadtree, one an invocation. The
 // stack is two integers: piece `index` of 2^depth equal pieces of the beam.
+//
+// Form is what encloses values over a piece; functions whose names start with form_ are recorded from the
+// CPU's.
 
 struct Settings {
     // The domain's box.
@@ -63,52 +66,57 @@ const PROVEN = 0x200u;
 
 var<workgroup> sum: atomic<u32>;
 
+struct Points {
+    x: Form,
+    y: Form,
+    z: Form,
+}
+
 struct Boxes {
     low: vec3f,
     high: vec3f,
 }
 
-// origin + t direction along an axis.
-fn along(origin: vec2f, direction: vec2f, t: vec2f) -> vec2f {
-    let low = min(step_down(t.x * direction.x, 1u), step_down(t.y * direction.x, 1u));
-    let high = max(step_up(t.x * direction.y, 1u), step_up(t.y * direction.y, 1u));
-    return vec2f(step_down(origin.x + low, 1u), step_up(origin.y + high, 1u));
-}
-
-fn widened(x: vec2f) -> vec2f {
-    return vec2f(step_down(x.x - settings.slack, 1u), step_up(x.y + settings.slack, 1u));
-}
-
 struct Beam {
-    origin_x: vec2f,
-    origin_y: vec2f,
-    origin_z: vec2f,
-    direction_x: vec2f,
-    direction_y: vec2f,
-    direction_z: vec2f,
+    origin: Points,
+    direction: Points,
 }
 
 fn beam_of(column: u32, row: u32) -> Beam {
     let size = f32(level.size);
-    let u = vec2f(f32(column) * size, min(f32(column + 1u) * size, settings.image.x));
-    let v = vec2f(f32(row) * size, min(f32(row + 1u) * size, settings.image.y));
-    let none = vec2f(0.0, 0.0);
-    let x = widened(lens_x(u, v, none));
-    let y = widened(lens_y(u, v, none));
-    let z = widened(lens_z(u, v, none));
-    let fixed_x = settings.fixed.xx;
-    let fixed_y = settings.fixed.yy;
-    let fixed_z = settings.fixed.zz;
+    let u = form_u(vec2f(f32(column) * size, min(f32(column + 1u) * size, settings.image.x)));
+    let v = form_v(vec2f(f32(row) * size, min(f32(row + 1u) * size, settings.image.y)));
+    let none = form_point(0.0);
+    let moving = Points(
+        form_widened(lens_x(u, v, none), settings.slack),
+        form_widened(lens_y(u, v, none), settings.slack),
+        form_widened(lens_z(u, v, none), settings.slack),
+    );
+    let fixed = Points(
+        form_point(settings.fixed.x),
+        form_point(settings.fixed.y),
+        form_point(settings.fixed.z),
+    );
     if PERSPECTIVE {
-        return Beam(fixed_x, fixed_y, fixed_z, x, y, z);
+        return Beam(fixed, moving);
     }
-    return Beam(x, y, z, fixed_x, fixed_y, fixed_z);
+    return Beam(moving, fixed);
 }
 
-fn boxes_of(beam: Beam, t: vec2f) -> Boxes {
-    let x = along(beam.origin_x, beam.direction_x, t);
-    let y = along(beam.origin_y, beam.direction_y, t);
-    let z = along(beam.origin_z, beam.direction_z, t);
+// Over a range of t, which is not negative.
+fn points_of(beam: Beam, range: vec2f) -> Points {
+    let t = form_t(range);
+    return Points(
+        form_along(beam.origin.x, beam.direction.x, t),
+        form_along(beam.origin.y, beam.direction.y, t),
+        form_along(beam.origin.z, beam.direction.z, t),
+    );
+}
+
+fn boxes_of(points: Points) -> Boxes {
+    let x = form_range(points.x);
+    let y = form_range(points.y);
+    let z = form_range(points.z);
     return Boxes(vec3f(x.x, y.x, z.x), vec3f(x.y, y.y, z.y));
 }
 
@@ -140,13 +148,13 @@ fn meets(boxes: Boxes) -> bool {
     return total <= settings.squared;
 }
 
-// Of boxes that are cut with the domain.
-fn value_of(boxes: Boxes) -> vec2f {
-    return value(
-        vec2f(boxes.low.x, boxes.high.x),
-        vec2f(boxes.low.y, boxes.high.y),
-        vec2f(boxes.low.z, boxes.high.z),
-    );
+// F over points, which are cut with a box.
+fn value_of(points: Points, boxes: Boxes) -> vec2f {
+    return form_range(value(
+        form_cut(points.x, vec2f(boxes.low.x, boxes.high.x)),
+        form_cut(points.y, vec2f(boxes.low.y, boxes.high.y)),
+        form_cut(points.z, vec2f(boxes.low.z, boxes.high.z)),
+    ));
 }
 
 fn cut(boxes: Boxes) -> Boxes {
@@ -168,12 +176,13 @@ fn beam_cast(beam: Beam, start: f32) -> Answer {
             step_down(start + step_down(f32(index) * part, 1u), 1u),
             step_up(start + step_up(f32(index + 1u) * part, 1u), 1u),
         );
-        let whole = boxes_of(beam, t);
+        let points = points_of(beam, t);
+        let whole = boxes_of(points);
         let boxes = cut(whole);
         var excluded = true;
         var next_sign = 0i;
         if meets(boxes) {
-            let f = value_of(boxes);
+            let f = value_of(points, boxes);
             answer.intervals += 1u;
             // What is no number excludes nothing.
             next_sign = i32(f.x > 0.0) - i32(f.y < 0.0);
@@ -193,8 +202,9 @@ fn beam_cast(beam: Beam, start: f32) -> Answer {
         var proven = false;
         if SEES && sign != 0i && is_inside(whole) {
             // The face in which the piece ends.
-            let face = boxes_of(beam, vec2f(step_down(start + last, 1u), t.y));
-            let f = value_of(cut(face));
+            let ends = points_of(beam, vec2f(step_down(start + last, 1u), t.y));
+            let face = boxes_of(ends);
+            let f = value_of(ends, cut(face));
             answer.intervals += 1u;
             let change = (sign > 0i && f.y < 0.0) || (sign < 0i && f.x > 0.0);
             proven = change && is_inside(face);

@@ -4,7 +4,8 @@ use zeroset_expr::Op;
 use zeroset_ia::{Binary, Interval, Number, Rounding, Unary, portable};
 use zeroset_raycast::Unsupported;
 
-use super::trace::{Node, Trace, record};
+use super::parts::{Parts, function};
+use super::trace::Trace;
 
 /// The marks: outward as `zeroset_ia::portable` has them. Working on bits, they also keep a compiler
 /// from rewriting sums and products across them.
@@ -90,78 +91,11 @@ impl Operation {
 
     /// The function in the shading language.
     pub(super) fn code(self) -> String {
-        let (nodes, results) = record(2 * self.operands(), |ends| {
-            let x = Interval::new(ends[0], ends[1]);
-            let y = ends.get(2..4).map_or(x, |ends| Interval::new(ends[0], ends[1]));
-            self.apply(x, y).bounds()
-        });
-        let needed = needed(&nodes, results);
-        let parameters = if self.operands() == 2 { "a: vec2f, b: vec2f" } else { "a: vec2f" };
-        let mut text = format!("fn {}({parameters}) -> vec2f {{\n", self.name());
-        for (i, node) in nodes.iter().enumerate() {
-            if needed[i] {
-                text += &format!("    let v{i} = {};\n", expression(*node));
-            }
-        }
-        text += &format!("    return vec2f(v{}, v{});\n}}\n\n", results[0], results[1]);
-        text
-    }
-}
-
-/// On which operations do the results depend?
-fn needed(nodes: &[Node], results: [u32; 2]) -> Vec<bool> {
-    let mut needed = vec![false; nodes.len()];
-    results.iter().for_each(|r| needed[*r as usize] = true);
-    for (i, node) in nodes.iter().enumerate().rev() {
-        if needed[i] {
-            node.operands().into_iter().flatten().for_each(|a| needed[a as usize] = true);
-        }
-    }
-    needed
-}
-
-impl Node {
-    fn operands(self) -> [Option<u32>; 4] {
-        match self {
-            Self::Input(_) | Self::Literal(_) => [None; 4],
-            Self::Add(a, b)
-            | Self::Sub(a, b)
-            | Self::Mul(a, b)
-            | Self::Div(a, b)
-            | Self::Min(a, b)
-            | Self::Max(a, b) => [Some(a), Some(b), None, None],
-            Self::Neg(a)
-            | Self::Sqrt(a)
-            | Self::Abs(a)
-            | Self::Floor(a)
-            | Self::Down(a, _)
-            | Self::Up(a, _)
-            | Self::Exp2Integer(a)
-            | Self::Exponent(a) => [Some(a), None, None, None],
-            Self::SelectLt(a, b, x, y) => [a, b, x, y].map(Some),
-        }
-    }
-}
-
-fn expression(node: Node) -> String {
-    match node {
-        Node::Input(i) => format!("{}.{}", ["a", "b"][i as usize / 2], ["x", "y"][i as usize % 2]),
-        // By its bits: decimal literals are rounded by every compiler in its own way.
-        Node::Literal(bits) => format!("bitcast<f32>({bits:#x}u)"),
-        Node::Add(a, b) => format!("v{a} + v{b}"),
-        Node::Sub(a, b) => format!("v{a} - v{b}"),
-        Node::Mul(a, b) => format!("v{a} * v{b}"),
-        Node::Div(a, b) => format!("v{a} / v{b}"),
-        Node::Neg(a) => format!("-v{a}"),
-        Node::Sqrt(a) => format!("sqrt(v{a})"),
-        Node::Abs(a) => format!("abs(v{a})"),
-        Node::Floor(a) => format!("floor(v{a})"),
-        Node::Min(a, b) => format!("min(v{a}, v{b})"),
-        Node::Max(a, b) => format!("max(v{a}, v{b})"),
-        Node::SelectLt(a, b, x, y) => format!("select(v{y}, v{x}, v{a} < v{b})"),
-        Node::Down(a, steps) => format!("step_down(v{a}, {steps}u)"),
-        Node::Up(a, steps) => format!("step_up(v{a}, {steps}u)"),
-        Node::Exp2Integer(a) => format!("bitcast<f32>(u32(i32(v{a}) + 127) << 23u)"),
-        Node::Exponent(a) => format!("f32(i32(bitcast<u32>(v{a}) >> 23u) - 127)"),
+        const WIDTH: usize = Interval::<Trace>::WIDTH;
+        function(&self.name(), &vec![WIDTH; self.operands()], |reals| {
+            let x = Interval::from_parts(&reals[..WIDTH]);
+            let y = reals.get(WIDTH..2 * WIDTH).map_or(x, Interval::from_parts);
+            self.apply(x, y)
+        })
     }
 }

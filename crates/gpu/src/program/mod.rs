@@ -2,15 +2,20 @@
 //!
 //! A [`Module`] collects tapes as functions of the shading language, each over one kind of number, and
 //! the constants that they read, which live in a buffer: new values for an equation's parameters need
-//! no new code. Plain numbers are the language's own. Interval operations are recorded from
-//! `zeroset_ia`'s, so that there is one definition of them.
+//! no new code. Plain numbers are the language's own. Operations of intervals and affine forms are recorded
+//! from `zeroset_ia`'s, so that there is one definition of them.
 
+mod affine;
 mod interval;
+mod parts;
 mod plain;
 mod trace;
 
+pub use parts::Parts;
+pub use trace::Trace;
+
 use zeroset_expr::{Instruction, Op, Tape};
-use zeroset_ia::{Rounding, portable};
+use zeroset_ia::{Affine, Interval, Rounding, portable};
 use zeroset_raycast::Unsupported;
 
 /// What a function computes with.
@@ -20,6 +25,19 @@ pub enum Numbers {
     Plain,
     /// Intervals `vec2f(lo, hi)` of [`portable`] reals.
     Interval,
+    /// Affine forms with three symbols, arrays as [`Parts`] has them, of [`portable`] reals.
+    Affine,
+}
+
+impl Numbers {
+    /// The type in the shading language.
+    pub fn type_name(self) -> String {
+        parts::type_of(match self {
+            Self::Plain => 1,
+            Self::Interval => Interval::<Trace>::WIDTH,
+            Self::Affine => Affine::<Trace, 3>::WIDTH,
+        })
+    }
 }
 
 /// Shader functions and their constants.
@@ -27,13 +45,14 @@ pub enum Numbers {
 pub struct Module {
     rounding: Rounding,
     source: String,
-    /// The interval operations that are needed, each once, with their code.
+    /// The operations of intervals and affine forms that are needed, each once, with their code.
     operations: Vec<(String, String)>,
     constants: Vec<[f32; 4]>,
     statements: usize,
 }
 
-/// The most statements of a shader's functions, an interval operation counted as eight: compilers take
+/// The most statements of a shader's functions, an operation of intervals counted as eight, one of affine
+/// forms as 64: compilers take
 /// a second for this many, and far longer than in proportion for more.
 const MOST_STATEMENTS: usize = 8192;
 
@@ -62,9 +81,11 @@ impl Module {
         tape: &Tape,
         numbers: Numbers,
     ) -> Result<(), Unsupported> {
-        let (ty, weight) = match numbers {
-            Numbers::Plain => ("f32", 1),
-            Numbers::Interval => ("vec2f", 8),
+        let ty = numbers.type_name();
+        let weight = match numbers {
+            Numbers::Plain => 1,
+            Numbers::Interval => 8,
+            Numbers::Affine => 64,
         };
         self.statements += weight * tape.instructions().len();
         if self.statements > MOST_STATEMENTS {
@@ -91,6 +112,7 @@ impl Module {
             let value = match numbers {
                 Numbers::Plain => plain::expression(*op, operands, constant),
                 Numbers::Interval => self.interval(*op, operands, constant)?,
+                Numbers::Affine => self.affine(*op, operands, constant)?,
             };
             let place = format!("v{line}");
             body += &format!("    let {place} = {value};\n");
@@ -114,16 +136,40 @@ impl Module {
         }
         let operation = interval::Operation::of(op)?;
         let name = operation.name();
-        if !self.operations.iter().any(|(known, _)| *known == name) {
-            let code = operation.code();
-            self.operations.push((name.clone(), code));
-        }
+        self.add(&name, operation.code());
         let second = if constant.is_empty() { b.to_owned() } else { format!("{constant}.yz") };
         Ok(if second.is_empty() {
             format!("{name}({a})")
         } else {
             format!("{name}({a}, {second})")
         })
+    }
+
+    /// The same over affine forms.
+    fn affine(&mut self, op: Op, [a, b]: [&str; 2], constant: &str) -> Result<String, Unsupported> {
+        let (name, code) = affine::operation(op)?;
+        self.add(&name, code);
+        let constant = if constant.is_empty() { String::new() } else { format!("{constant}.yz") };
+        let operands = [a, b, &constant].into_iter().filter(|operand| !operand.is_empty());
+        Ok(format!("{name}({})", operands.collect::<Vec<_>>().join(", ")))
+    }
+
+    /// Adds a function, recorded from what `f` does with the reals of its operands, which have these widths
+    /// (as [`Parts`] has them). A second one of the same name is not added.
+    pub fn record<N: Parts>(
+        &mut self,
+        name: &str,
+        widths: &[usize],
+        f: impl FnOnce(&[Trace]) -> N,
+    ) {
+        self.add(name, parts::function(name, widths, f));
+    }
+
+    /// Adds an operation if it is not there yet.
+    fn add(&mut self, name: &str, code: String) {
+        if !self.operations.iter().any(|(known, _)| known == name) {
+            self.operations.push((name.to_owned(), code));
+        }
     }
 
     /// The whole shader: the functions, and the kernel that calls them. The constants are binding 0.

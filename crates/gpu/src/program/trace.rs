@@ -46,19 +46,19 @@ thread_local! {
     static RECORDER: RefCell<Recorder> = RefCell::default();
 }
 
-/// The result of a recorded operation.
+/// The result of a recorded operation: a real of which only what is done with it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Trace(u32);
+pub struct Trace(u32);
 
 /// Records what `work` does with so many floats; gives all operations, each of which is there once, and
 /// the numbers of the results.
-pub(super) fn record<const N: usize>(
+pub(super) fn record(
     inputs: usize,
-    work: impl FnOnce(&[Trace]) -> [Trace; N],
-) -> (Vec<Node>, [u32; N]) {
+    work: impl FnOnce(&[Trace]) -> Vec<Trace>,
+) -> (Vec<Node>, Vec<u32>) {
     RECORDER.take();
     let inputs: Vec<Trace> = (0..inputs as u32).map(|i| Trace::of(Node::Input(i))).collect();
-    let results = work(&inputs).map(|t| t.0);
+    let results = work(&inputs).into_iter().map(|t| t.0).collect();
     (RECORDER.take().nodes, results)
 }
 
