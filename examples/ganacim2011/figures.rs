@@ -138,7 +138,7 @@ pub(crate) fn samples() -> Result<(), Failure> {
 fn picture(id: &str, size: usize, side: usize) -> Result<Picture, Failure> {
     let scene = surface(id)?;
     let view = view(&scene, side * size);
-    let mut hits = Hits::without_work(Request::FirstWithNormal, (side * size).pow(2));
+    let mut hits = Hits::new(Request::FirstWithNormal, (side * size).pow(2));
     let method = Beam::new(Refinement::Adaptive);
     method.prepare(&scene)?.intersect(Rays::View(&view), &mut hits, &Progress::new())?;
     let lights = shaded::lights(&view);
