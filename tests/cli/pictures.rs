@@ -31,6 +31,25 @@ fn a_legend_is_drawn_below_any_picture() {
 }
 
 #[test]
+fn samples_soften_edges() {
+    let dir = folder();
+    let colours = |samples: &str| {
+        let arguments = ["render", "x^2+y^2+z^2-1", "--method", "beam-adaptive", "--size", "40x30"];
+        let rest = ["--view", "certificate", "--samples", samples, "--out", "s.png"];
+        done(dir.path(), &[&arguments[..], &rest].concat());
+        let picture = image::open(dir.path().join("s.png")).unwrap().to_rgb8();
+        assert_eq!(picture.dimensions(), (40, 30));
+        let mut colours: Vec<_> = picture.pixels().map(|p| p.0).collect();
+        colours.sort_unstable();
+        colours.dedup();
+        colours.len()
+    };
+    // Possible hits and proven misses; then mixtures of a quarter, a half and three.
+    assert_eq!(colours("1"), 2);
+    assert_eq!(colours("4"), 5);
+}
+
+#[test]
 fn right_is_right_and_up_is_up() {
     let dir = folder();
     // From the front (y < 0), with z up: a ball to the right, and a smaller one above the centre.
