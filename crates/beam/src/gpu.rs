@@ -80,7 +80,12 @@ impl Method for BeamGpu {
         // Wrong parameters and domains are for preparing to tell.
         if let Ok(implicit) = Implicit::new(self.id(), scene) {
             check(&self.twin, &implicit)?;
-            function(&self.twin, &implicit)?;
+            let view = View::new(Camera::facing(&implicit.domain), 1, 1);
+            match Optics::new(&view, &implicit.domain) {
+                Ok(Some(optics)) => shader(&self.twin, &implicit, &optics).map(|_| ())?,
+                // A view that has rays may come.
+                _ => function(&self.twin, &implicit).map(|_| ())?,
+            }
         }
         self.find_device()
     }
@@ -269,7 +274,14 @@ struct SentSettings {
 impl SentSettings {
     fn new(method: &Beam, optics: &Optics, domain: &Domain, image: [usize; 2]) -> Self {
         let region = Region::<f32>::new(domain);
-        let end = |ends: [[f32; 2]; 3], i: usize| ends.map(|ends| ends[i]);
+        // Devices may take subnormal numbers for 0: outward.
+        let normal = |x: f32, i: usize| match x {
+            x if x == 0.0 || x.is_normal() => x,
+            x if i == 0 && x < 0.0 => -f32::MIN_POSITIVE,
+            x if i == 1 && x > 0.0 => f32::MIN_POSITIVE,
+            _ => 0.0,
+        };
+        let end = |ends: [[f32; 2]; 3], i: usize| ends.map(|ends| normal(ends[i], i));
         let four = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
         let (centre, squared) =
             region.ball.map_or(([[0.0; 2]; 3], -1.0), |ball| (ball.centre, ball.squared));

@@ -61,6 +61,9 @@ const FARTHEST: f64 = f64::from_bits((1023 + 100) << 52);
 const FARTHEST_ON_DEVICE: f64 = f64::from_bits((1023 + 60) << 52);
 /// Half the image's height or width at distance 1, at most: an angle of 179.9998 degrees.
 const WIDEST: f64 = f64::from_bits((1023 + 20) << 52);
+/// 2^-40: how far the camera's frame may be from unit vectors at right angles, far below what rays are rounded
+/// by.
+const SKEWEST: f64 = f64::from_bits((1023 - 40) << 52);
 /// More than the relative error of the length of a ray's direction.
 const LENGTH_ERROR: f64 = f64::from_bits((1023 - 20) << 52);
 
@@ -79,12 +82,19 @@ impl Optics {
         // Space a pixel, and the image's middle in pixels.
         let (scale, middle) = (view.extent() / (0.5 * size[1]), size.map(|n| 0.5 * n));
         let (b, c) = (scale * right, -scale * up);
-        let reach = scale * middle[0].max(middle[1]);
+        let reach = scale.abs() * middle[0].max(middle[1]);
         let eye = camera.eye.abs().max_element();
         let refused = |what: &str| {
             let why = format!("{what} for beams in single precision");
             Err(Error::Unsupported(Unsupported(why)))
         };
+        // The formula for directions presumes a frame at right angles, which there is not if `up` is nearly
+        // along the view.
+        let skew = [right.dot(up), right.dot(forward), up.dot(forward)];
+        let stretch = [right, up, forward].map(|v| v.length_squared() - 1.0);
+        if !skew.iter().chain(&stretch).all(|x| x.abs() < SKEWEST) {
+            return refused("up is too nearly along the view");
+        }
         let range = range(view, domain, reach);
         let farthest = eye.max(reach).max(range[1]);
         if !(farthest < FARTHEST) {
@@ -135,11 +145,12 @@ impl Optics {
     /// # Errors
     /// If something is too far away.
     pub(crate) fn check_device(&self) -> Result<(), Unsupported> {
-        if self.reach < FARTHEST_ON_DEVICE {
+        let is_normal = |x: f32| x == 0.0 || x.is_normal();
+        if self.reach < FARTHEST_ON_DEVICE && self.fixed.to_array().into_iter().all(is_normal) {
             return Ok(());
         }
-        let why =
-            "the camera or the domain is too far away for beams on a device: use a CPU method";
+        let why = "the camera or the domain is too far away, or a part of the view's direction too small, \
+                   for beams on a device: use a CPU method";
         Err(Unsupported(why.into()))
     }
 }
@@ -153,8 +164,10 @@ fn range(view: &View, domain: &Domain, reach: f64) -> [f64; 2] {
     };
     let [near, far] = match camera.projection {
         Projection::Perspective { .. } => {
-            let near = (camera.eye.clamp(domain.min, domain.max) - camera.eye).length();
-            let far = (0..8).map(|i| (corner(i) - camera.eye).length()).fold(0.0, f64::max);
+            // Where rays start: the eye as rounded.
+            let eye = view.ray(0, 0).origin.as_dvec3();
+            let near = (eye.clamp(domain.min, domain.max) - eye).length();
+            let far = (0..8).map(|i| (corner(i) - eye).length()).fold(0.0, f64::max);
             [near * (1.0 - LENGTH_ERROR), far * (1.0 + LENGTH_ERROR)]
         }
         Projection::Orthographic { .. } => {
@@ -162,7 +175,9 @@ fn range(view: &View, domain: &Domain, reach: f64) -> [f64; 2] {
             let away = (0..8).map(|i| corner(i) - camera.eye);
             let (mut near, mut far) = (f64::INFINITY, 0.0_f64);
             for v in away {
-                let slack = (v.length() + 2.0 * reach) * LENGTH_ERROR;
+                // Origins are rounded too, by units of their coordinates.
+                let size = v.length() + camera.eye.length() + 2.0 * reach;
+                let slack = size * LENGTH_ERROR;
                 near = near.min(v.dot(forward) - slack);
                 far = far.max(v.dot(forward) + slack);
             }

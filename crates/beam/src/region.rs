@@ -44,7 +44,8 @@ impl<S: Scalar> Region<S> {
         let (mut cut, mut meets, mut inside) = (boxes, u64::MAX, u64::MAX);
         for (ends, bounds) in cut.iter_mut().zip(self.bounds) {
             let [low, high] = [ends[0].splat(bounds[0]), ends[0].splat(bounds[1])];
-            inside &= low.le(ends[0]) & ends[1].le(high);
+            // Bounds are rounded outward: the next number inward is in the domain.
+            inside &= low.lt(ends[0]) & ends[1].lt(high);
             *ends = [ends[0].max(low), ends[1].min(high)];
             meets &= ends[0].le(ends[1]);
         }

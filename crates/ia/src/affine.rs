@@ -222,10 +222,19 @@ impl<R: Real, const K: usize> Neg for Affine<R, K> {
 
 impl<R: Real, const K: usize> Mul for Affine<R, K> {
     type Output = Self;
+    #[inline(always)]
+    fn mul(self, o: Self) -> Self {
+        self.times(o, self.range * o.range)
+    }
+}
+
+impl<R: Real, const K: usize> Affine<R, K> {
+    /// The product, which is known to be in a range.
+    ///
     /// With p the spread of x's slopes and q of y's: `x_i y_i e_i^2` lies in `x_i y_i / 2 +- |x_i y_i| / 2`, and
     /// all other products of symbols add at most `p q - sum |x_i y_i|`.
     #[inline(always)]
-    fn mul(self, o: Self) -> Self {
+    fn times(self, o: Self, range: Interval<R>) -> Self {
         let half = real(self.centre, 0.5);
         let mut squares = Interval::point(real(self.centre, 0.0));
         let mut least = real(self.centre, 0.0);
@@ -246,7 +255,7 @@ impl<R: Real, const K: usize> Mul for Affine<R, K> {
         let own = self.centre.abs().add_up(p).mul_up(o.error);
         let other = o.centre.abs().add_up(q).add_up(o.error).mul_up(self.error);
         let error = symbols.add_up(own).add_up(other);
-        Self::new(centre, slopes, error, self.range * o.range)
+        Self::new(centre, slopes, error, range)
     }
 }
 
@@ -263,8 +272,8 @@ impl<R: Real, const K: usize> Div for Affine<R, K> {
             #[inline(always)]
             |y| one / y,
         );
-        let quotient = self.range / o.range;
-        (self * inverse).within(quotient)
+        // A reciprocal may overflow where the quotient does not: its own range is not multiplied.
+        self.times(inverse, self.range / o.range)
     }
 }
 

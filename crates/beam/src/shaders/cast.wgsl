@@ -121,7 +121,8 @@ fn boxes_of(points: Points) -> Boxes {
 }
 
 fn is_inside(boxes: Boxes) -> bool {
-    let inside = all(settings.low.xyz <= boxes.low) && all(boxes.high <= settings.high.xyz);
+    // Bounds are rounded outward: the next number inward is in the domain.
+    let inside = all(settings.low.xyz < boxes.low) && all(boxes.high < settings.high.xyz);
     return inside && settings.squared < 0.0;
 }
 
@@ -184,9 +185,9 @@ fn beam_cast(beam: Beam, start: f32) -> Answer {
         if meets(boxes) {
             let f = value_of(points, boxes);
             answer.intervals += 1u;
-            // What is no number excludes nothing.
+            // What is no number excludes nothing; a range that ends before it begins has no sign.
             next_sign = i32(f.x > 0.0) - i32(f.y < 0.0);
-            excluded = next_sign != 0i;
+            excluded = f.x > 0.0 || f.y < 0.0;
         }
         if excluded {
             sign = next_sign;
@@ -252,7 +253,7 @@ fn main(
         }
     }
     workgroupBarrier();
-    if lane == 0u {
+    if lane == 0u && workgroup * 64u < count.w {
         sums[workgroup] = atomicLoad(&sum);
     }
 }
