@@ -8,6 +8,7 @@ mod exactly;
 use exactly::{Q, Shape, exact, power_of_ten};
 use glam::{DVec3, Vec3};
 use num_traits::One;
+use zeroset_beam::{Beam, Enclosure, Stop};
 use zeroset_bench::{Class, Registry, judge::lie};
 use zeroset_cpu::{Arithmetic, Bisection, Reference};
 use zeroset_expr::Function;
@@ -23,6 +24,8 @@ struct Count {
     proven: usize,
     hits: usize,
     decided: usize,
+    /// Hits of whole pixels that beams proved.
+    whole: usize,
 }
 
 fn scene(equation: &str, min: DVec3, max: DVec3) -> Scene {
@@ -73,13 +76,25 @@ fn check(scene: &Scene, shape: &Shape, rays: Vec<Ray>) -> Count {
     let double = [Bisection::kmarch(), Bisection::tbisect(), Bisection::mitchell()]
         .map(|method| Bisection { arithmetic: Arithmetic::Double, ..method });
     let double = double.iter().map(|method| method as &dyn Method);
+    // Beams that prove hits of whole pixels.
+    let beams = [Enclosure::Interval, Enclosure::Affine].map(|enclosure| Beam {
+        enclosure,
+        stop: Stop::Seen,
+        ..Beam::adaptive()
+    });
+    let beams = beams.iter().map(|method| method as &dyn Method);
     let registry = Registry::standard();
     let certified = registry.certified();
     let certified = certified.iter().map(AsRef::as_ref);
-    let methods = registry.iter().chain(double).chain(certified);
+    let methods = registry.iter().chain(double).chain(beams).chain(certified);
     for method in methods.filter(|method| method.supports(scene).is_ok()) {
         if method.sampling() == Sampling::Footprint {
-            check_pixels(method, scene, shape);
+            let mut camera = Camera::facing(&scene.domain);
+            if method.knobs().iter().any(|knob| knob.name == "stop" && knob.value == "seen") {
+                // Only pixels that are small to the surface see nothing else.
+                camera.projection = Projection::Perspective { fov: 12.0 };
+            }
+            count.whole += check_pixels(method, scene, shape, camera);
             continue;
         }
         let hits = ask(method, scene, rays);
@@ -99,14 +114,15 @@ fn check(scene: &Scene, shape: &Shape, rays: Vec<Ray>) -> Count {
     count
 }
 
-/// Judges a method that answers for whole pixels by the closed form, on 16 rays of each.
-fn check_pixels(method: &dyn Method, scene: &Scene, shape: &Shape) {
-    let view = View::new(Camera::facing(&scene.domain), 9, 7);
+/// Judges a method that answers for whole pixels by the closed form, on 16 rays of each; gives how many hits of
+/// whole pixels are proven.
+fn check_pixels(method: &dyn Method, scene: &Scene, shape: &Shape, camera: Camera) -> usize {
+    let view = View::new(camera, 9, 7);
     let intersector = method.prepare(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.id));
     let mut hits = Hits::new(Request::First, 63);
     match intersector.intersect(Rays::View(&view), &mut hits, &Progress::new()) {
         // Cameras can be too far away.
-        Err(Error::Unsupported(_)) => return,
+        Err(Error::Unsupported(_)) => return 0,
         answered => answered.map(|_| ()).unwrap_or_else(|e| panic!("{}: {e}", scene.id)),
     }
     for i in 0..63 {
@@ -125,6 +141,7 @@ fn check_pixels(method: &dyn Method, scene: &Scene, shape: &Shape) {
             assert_eq!(fault, None, "{place}");
         }
     }
+    hits.certificate.iter().filter(|c| **c == Certificate::PROVEN_HIT).count()
 }
 
 /// Rays towards a cube around a point, from outside, inside and along axes.
@@ -148,11 +165,13 @@ fn towards(centre: DVec3, half: f64) -> Vec<Ray> {
 
 #[test]
 fn equations_of_any_scale() {
-    for power in [-50, -12, -3, 3, 12, 50] {
+    for power in [-50_i32, -12, -3, 3, 12, 50] {
         let scene = cube(&format!("1e{power}*(x^2 + y^2 + z^2 - 1)"), 1.5);
         let count = check(&scene, &sphere([0.0; 3], Q::one()), towards(DVec3::ZERO, 1.5));
         assert_eq!(count.decided, count.rays, "{power}: {count:?}");
         assert!(2 * count.hits > count.rays && count.proven == count.rays, "{power}: {count:?}");
+        // Single precision has no 1e-50.
+        assert!(count.whole > 5 || power.abs() > 12, "{power}: {count:?}");
     }
 }
 
