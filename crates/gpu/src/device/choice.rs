@@ -14,7 +14,7 @@ pub enum Choice {
     /// integrated one before one in software.
     #[default]
     Auto,
-    /// The number in the list of [`adapters`], or a part of the name.
+    /// The number in the list of [`adapters`](super::adapters), or a part of the name.
     Named(String),
 }
 
