@@ -82,7 +82,11 @@ impl Method for BeamGpu {
             check(&self.twin, &implicit)?;
             let view = View::new(Camera::facing(&implicit.domain), 1, 1);
             match Optics::new(&view, &implicit.domain) {
-                Ok(Some(optics)) => shader(&self.twin, &implicit, &optics).map(|_| ())?,
+                Ok(Some(optics)) => {
+                    optics.check_device()?;
+                    shader(&self.twin, &implicit, &optics)?;
+                }
+                Err(Error::Unsupported(why)) => return Err(why),
                 // A view that has rays may come.
                 _ => function(&self.twin, &implicit).map(|_| ())?,
             }

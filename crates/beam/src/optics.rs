@@ -186,3 +186,34 @@ fn range(view: &View, domain: &Domain, reach: f64) -> [f64; 2] {
     };
     [near.max(0.0), far.max(near).max(0.0)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use zeroset_raycast::Camera;
+
+    #[test]
+    fn frames_that_are_not_at_right_angles_are_refused() {
+        let domain = Domain::new(DVec3::splat(-1.0), DVec3::splat(1.0)).expect("a box");
+        let eye = DVec3::new(2.3, 3.5, 4.7);
+        // Beside the view by less and less; what is left of `up` is then noise.
+        for (beside, is_refused) in [(1.0, false), (1e-2, false), (1e-9, true), (1e-12, true)] {
+            let up = eye + beside * DVec3::X;
+            let camera = Camera { eye, at: DVec3::ZERO, up, ..Camera::facing(&domain) };
+            let optics = Optics::new(&View::new(camera, 8, 8), &domain);
+            let refused = matches!(optics, Err(Error::Unsupported(_)));
+            assert_eq!(refused, is_refused, "{beside}: {optics:?}");
+        }
+    }
+
+    #[test]
+    fn ranges_begin_where_rays_do() {
+        // Single precision has no such eye: rays start a little before it, inside the box.
+        let domain = Domain::new(DVec3::splat(-1000.0), DVec3::splat(1000.0)).expect("a box");
+        let eye = DVec3::new(1000.00003, 0.0, 0.0);
+        let camera = Camera { eye, at: DVec3::new(0.0, 500.0, 0.0), ..Camera::facing(&domain) };
+        let optics = Optics::new(&View::new(camera, 8, 8), &domain).expect("a view");
+        assert_eq!(optics.expect("rays").range[0], 0.0);
+    }
+}

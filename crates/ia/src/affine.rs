@@ -423,3 +423,30 @@ impl<R: Real, const K: usize> Affine<R, K> {
         Self::new(centre, slopes, s.mul_up(self.error).add_up(error), range)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reciprocal_that_overflows_takes_nothing_from_its_quotient() {
+        // x^2 / y with x around 0 and 1/y infinite at its end.
+        let x = Affine::<f32, 2>::variable(Interval::new(-1.0, 1.0), 0);
+        let y = Affine::<f32, 2>::variable(Interval::new(1e-39, 3e-39), 1);
+        let small = Affine::between(Interval::point(1e-10));
+        let quotient = small * x.sqr() / y;
+        assert!(quotient.range.lo <= 0.0, "{quotient:?}");
+        assert!(quotient.range.hi >= 1e29, "{quotient:?}");
+    }
+
+    #[test]
+    fn linear_parts_cancel() {
+        let x = Affine::<f64, 1>::variable(Interval::new(1.0, 3.0), 0);
+        let Interval { lo, hi, .. } = (x - x).range;
+        assert!(lo <= 0.0 && 0.0 <= hi && hi - lo < 1e-15, "{lo} {hi}");
+        // x^2 - 4 x + 4 = (x - 2)^2 lies in [0, 1]; intervals have [-7, 9].
+        let four = Affine::between(Interval::point(4.0));
+        let Interval { lo, hi, .. } = (x.sqr() - four * x + four).range;
+        assert!(lo <= 0.0 && 1.0 <= hi && lo > -0.01 && hi < 1.01, "{lo} {hi}");
+    }
+}
