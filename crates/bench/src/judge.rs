@@ -105,18 +105,19 @@ pub fn verdict(hit: Hit, truth: Truth, speed: f64, tolerance: f64) -> (Verdict, 
 /// The claim of a certificate that the truth contradicts, if any.
 ///
 /// Only what is proven contradicts: with \[a, b\] the truth's bracket and \[lo, hi\] the answer's, a
-/// first root is in \[a, b\] and none is before a. So FIRST lies if b < lo, and ROOT lies if hi < a; a
-/// later root may well be in the answer's bracket. Brackets are closed, comparisons exact.
+/// first root is in \[a, b\] and none is before a. So FIRST lies if b < lo, and ROOT lies if hi < a, or for a
+/// pixel if hi lies before the first root of any of its rays; a later root may well be in the answer's
+/// bracket. Brackets are closed, comparisons exact.
 pub fn lie(hit: Hit, truth: Truth) -> Option<Lie> {
     let claims = |bit| hit.certificate.contains(bit);
     let [lo, hi] = hit.bracket;
-    let [a, b] = truth.bracket;
+    let b = truth.bracket[1];
     let has_root = matches!(truth.class, Class::Transversal | Class::Tangential);
     if !hit.certificate.is_hit() {
         return (claims(Certificate::FIRST) && has_root).then_some(Lie::RootMissed);
     }
     let is_empty = !(lo <= hi);
-    if claims(Certificate::ROOT) && (is_empty || truth.class == Class::None || hi < a) {
+    if claims(Certificate::ROOT) && (is_empty || truth.class == Class::None || hi < truth.latest) {
         return Some(Lie::NoRoot);
     }
     (claims(Certificate::FIRST) && has_root && b < lo).then_some(Lie::RootBefore)
@@ -256,7 +257,7 @@ mod tests {
     const UNKNOWN: Truth = truth(Class::Undecidable, [2.0, 2.5]);
 
     const fn truth(class: Class, bracket: [f64; 2]) -> Truth {
-        Truth { class, bracket, work: NO_WORK }
+        Truth::new(class, bracket, NO_WORK)
     }
 
     fn hit(certificate: Certificate, lo: f64, hi: f64) -> Hit {
@@ -301,6 +302,19 @@ mod tests {
         // Even a bracket that never ends.
         let endless = hit(Certificate::ROOT_HIT, 0.0, f64::INFINITY);
         assert_eq!(lie(endless, NONE), Some(Lie::NoRoot));
+    }
+
+    #[test]
+    fn a_root_that_one_ray_of_a_pixel_lacks_is_a_lie() {
+        let no_root = Some(Lie::NoRoot);
+        let pixel = Truth { latest: 2.3, ..ROOT };
+        let before = Some(Lie::RootBefore);
+        let proven = lies(Certificate::PROVEN_HIT, pixel);
+        assert_eq!(proven, [no_root, no_root, no_root, None, None, before]);
+        assert_eq!(lies(Certificate::POSSIBLE_HIT, pixel), [None, None, None, None, None, before]);
+        let hole = Truth { latest: f64::INFINITY, ..ROOT };
+        assert_eq!(lies(Certificate::PROVEN_HIT, hole), [no_root; 6]);
+        assert_eq!(lie(miss(Certificate::PROVEN_MISS), hole), Some(Lie::RootMissed));
     }
 
     #[test]

@@ -37,8 +37,9 @@ impl Oracle for PreparedReference {
 ///
 /// The truth of a pixel is that of its first root on any of the rays: its bracket starts where the first
 /// root, or what is undecided, may be, and ends where a root is known to be. So an answer that holds for
-/// the pixel is judged as one that holds for a ray: a `proven-miss` lies if one of the rays has a root, and
-/// FIRST if a root lies before the bracket. Of a view only.
+/// the pixel is judged as one that holds for a ray: a `proven-miss` lies if one of the rays has a root,
+/// FIRST if a root lies before the bracket, and ROOT, which claims a root on every ray, if one of them has
+/// none so early as the bracket's end. Of a view only.
 pub struct Footprints<'a>(pub &'a dyn Oracle);
 
 /// Where the rays of a pixel are, in each axis.
@@ -88,7 +89,8 @@ fn first(rays: &[Truth]) -> Truth {
     };
     let from = least(&rooted, 0).min(least(&open, 0));
     let to = if rooted.is_empty() { least(&open, 1) } else { least(&rooted, 1) };
-    Truth { class, bracket: [from, to], work }
+    let latest = rays.iter().map(|truth| truth.latest).fold(f64::NEG_INFINITY, f64::max);
+    Truth { class, bracket: [from, to], latest, work }
 }
 
 /// The truth on what a ray stands for.
@@ -292,11 +294,7 @@ mod tests {
             _: &Progress,
         ) -> Result<Vec<Truth>, Error> {
             *self.0.lock().unwrap() += indices.len();
-            let truth = |&i: &usize| Truth {
-                class: Class::None,
-                bracket: [i as f64; 2],
-                work: Work::default(),
-            };
+            let truth = |&i: &usize| Truth::new(Class::None, [i as f64; 2], Work::default());
             Ok(indices.iter().map(truth).collect())
         }
     }
@@ -325,11 +323,12 @@ mod tests {
 
     #[test]
     fn a_pixel_has_the_first_root_of_its_rays() {
-        let truth = |class, bracket| Truth { class, bracket, work: Work::default() };
+        let truth = |class, bracket| Truth::new(class, bracket, Work::default());
         let none = truth(Class::None, [f64::INFINITY; 2]);
         let of = |rays: &[Truth]| {
             let all: Vec<_> = [none].iter().chain(rays).copied().collect();
             let first = first(&all);
+            assert_eq!(first.latest, f64::INFINITY, "one ray has none");
             (first.class, first.bracket)
         };
         assert_eq!(of(&[]), (Class::None, [f64::INFINITY; 2]));
@@ -343,6 +342,8 @@ mod tests {
         // A root may lie where it is not decided, and surely lies where it is known.
         assert_eq!(of(&[open, far]), (Class::Transversal, [0.5, 2.5]));
         assert_eq!(of(&[open, far, near]), (Class::Transversal, [0.5, 1.25]));
+        // None of the three has a root before 0.5, one has none before 2.
+        assert_eq!(first(&[open, far, near]).latest, 2.0);
     }
 
     #[test]
@@ -360,7 +361,7 @@ mod tests {
                 let of = |&i: &usize| {
                     let t = rays.get(i).direction.as_dvec3().dot(right);
                     let class = if t > 0.01 { Class::Transversal } else { Class::None };
-                    Truth { class, bracket: [t; 2], work: Work::default() }
+                    Truth::new(class, [t; 2], Work::default())
                 };
                 Ok(indices.iter().map(of).collect())
             }
@@ -417,7 +418,7 @@ mod tests {
     fn a_clear_miss_has_eight_neighbours_without_roots() {
         let view = view(6, 5);
         let rays = Rays::View(&view);
-        let none = Truth { class: Class::None, bracket: [f64::INFINITY; 2], work: Work::default() };
+        let none = Truth::new(Class::None, [f64::INFINITY; 2], Work::default());
         let mut truths = Truths { sample: Sample::every(1, rays), truths: vec![none; 30] };
         assert_eq!(truths.clear_misses(rays).unwrap().len(), 4 * 3);
         // A root at column 1, row 1 spoils its neighbours; what is not decided spoils too.

@@ -1,20 +1,5 @@
 // The cells of the next level, in spatial order: the quarters in the image of those that may see the surface.
 
-struct Level {
-    size: u32,
-    exponent: u32,
-    number: u32,
-    tolerance: f32,
-    extent: vec2u,
-    row: u32,
-    width: u32,
-}
-
-struct Cell {
-    place: u32,
-    start: f32,
-}
-
 @group(0) @binding(0) var<uniform> level: Level;
 @group(0) @binding(1) var<storage, read> counts: array<vec4u>;
 @group(0) @binding(2) var<storage, read> cells: array<Cell>;
@@ -22,9 +7,7 @@ struct Cell {
 @group(0) @binding(4) var<storage, read> sums: array<u32>;
 @group(0) @binding(5) var<storage, read_write> next: array<Cell>;
 
-var<workgroup> partial: array<u32, 64>;
-
-@compute @workgroup_size(64)
+@compute @workgroup_size(INVOCATIONS)
 fn main(
     @builtin(workgroup_id) group: vec3u,
     @builtin(local_invocation_index) lane: u32,
@@ -36,21 +19,11 @@ fn main(
     if i < count.w {
         own = quarters[i];
     }
-    partial[lane] = own.x;
-    workgroupBarrier();
-    for (var step = 1u; step < 64u; step *= 2u) {
-        var before = 0u;
-        if lane >= step {
-            before = partial[lane - step];
-        }
-        workgroupBarrier();
-        partial[lane] += before;
-        workgroupBarrier();
-    }
+    let sum = up_to(lane, own.x);
     if own.x == 0u {
         return;
     }
-    var place = sums[workgroup] + partial[lane] - own.x;
+    var place = sums[workgroup] + sum - own.x;
     let first = vec2u(cells[i].place & 0xffffu, cells[i].place >> 16u) * 2u;
     for (var k = 0u; k < 4u; k += 1u) {
         let quarter = first + vec2u(k & 1u, k >> 1u);

@@ -20,7 +20,7 @@ pub(crate) fn scene() -> Scene {
 /// What is known of a valid ray, from the quadratic a t^2 + 2 b t + c = 0 in interval arithmetic.
 fn truth(ray: Ray, range: [f64; 2], domain: &Domain) -> Truth {
     type I = Interval<f64, Set>;
-    let known = |class, bracket| Truth { class, bracket, work: Work::default() };
+    let known = |class, bracket| Truth::new(class, bracket, Work::default());
     let none = known(Class::None, [f64::INFINITY; 2]);
     let undecidable = |from: f64| known(Class::Undecidable, [from, f64::INFINITY]);
 

@@ -88,18 +88,26 @@ impl Class {
     }
 }
 
-/// The truth about one ray.
+/// The truth about one ray, or about a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
     /// What is known.
     pub class: Class,
     /// The range of t that it is known of; `[inf, inf]` if there is no root, or no ray.
     pub bracket: [f64; 2],
+    /// No root lies before it: the start of the bracket. For a pixel: on one of its rays at least, `inf` if
+    /// one has none.
+    pub latest: f64,
     /// What it cost.
     pub work: Work,
 }
 
 impl Truth {
+    /// The truth about one ray.
+    pub const fn new(class: Class, bracket: [f64; 2], work: Work) -> Self {
+        Self { class, bracket, latest: bracket[0], work }
+    }
+
     /// What the class proves.
     pub fn certificate(&self) -> Certificate {
         match self.class {

@@ -116,10 +116,10 @@ impl PreparedReference {
         let nothing = [f64::INFINITY; 2];
         if !ray.is_valid() {
             let work = Work { nonfinite: 1, ..Work::default() };
-            return Truth { class: Class::Undecidable, bracket: nothing, work };
+            return Truth::new(Class::Undecidable, nothing, work);
         }
         let Some(clip) = self.domain.clip(ray, range) else {
-            return Truth { class: Class::None, bracket: nothing, work: Work::default() };
+            return Truth::new(Class::None, nothing, Work::default());
         };
         ladder.iter_mut().for_each(|rung| rung.aim(ray));
         let found = climb(ladder, clip.outer, &Goal { clip, resolution: self.method.width, width });
@@ -131,7 +131,7 @@ impl PreparedReference {
         };
         let mut work = Work::default();
         ladder.iter().for_each(|rung| work += rung.work());
-        Truth { class, bracket, work }
+        Truth::new(class, bracket, work)
     }
 }
 
