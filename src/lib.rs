@@ -147,5 +147,7 @@ pub use zeroset_cpu as cpu;
 pub use zeroset_expr as expr;
 pub use zeroset_gpu as gpu;
 pub use zeroset_ia as ia;
+pub use zeroset_model as model;
+pub use zeroset_quadric as quadric;
 pub use zeroset_raycast as raycast;
 pub use zeroset_shade as shade;

@@ -11,7 +11,7 @@ const LAYERS: [&[&str]; 8] = [
     &["zeroset-raycast"],
     &["zeroset-cpu", "zeroset-model", "zeroset-shade"],
     &["zeroset-gpu"],
-    &["zeroset-beam"],
+    &["zeroset-beam", "zeroset-quadric"],
     &["zeroset-bench"],
     &["zeroset"],
 ];

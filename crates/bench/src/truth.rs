@@ -4,7 +4,10 @@ use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
 use zeroset_cpu::{PreparedReference, Reference};
-use zeroset_raycast::{Error, Progress, RayBatch, Rays, Sampling, Scene, Unsupported, Work};
+use zeroset_quadric::{PreparedQuadricReference, QuadricReference};
+use zeroset_raycast::{
+    Error, Geometry, Progress, RayBatch, Rays, Sampling, Scene, Unsupported, Work,
+};
 
 pub use zeroset_cpu::{Class, Truth};
 
@@ -30,6 +33,28 @@ impl Oracle for PreparedReference {
         progress: &Progress,
     ) -> Result<Vec<Truth>, Error> {
         self.classify(rays, indices, progress)
+    }
+}
+
+impl Oracle for PreparedQuadricReference {
+    fn classify(
+        &self,
+        rays: Rays<'_>,
+        indices: &[usize],
+        progress: &Progress,
+    ) -> Result<Vec<Truth>, Error> {
+        self.classify(rays, indices, progress)
+    }
+}
+
+impl<O: Oracle + ?Sized> Oracle for Box<O> {
+    fn classify(
+        &self,
+        rays: Rays<'_>,
+        indices: &[usize],
+        progress: &Progress,
+    ) -> Result<Vec<Truth>, Error> {
+        self.as_ref().classify(rays, indices, progress)
     }
 }
 
@@ -155,8 +180,11 @@ impl<O: Oracle> Oracle for Remembering<O> {
 ///
 /// # Errors
 /// If the reference cannot handle the scene.
-pub fn reference(scene: &Scene) -> Result<PreparedReference, Error> {
-    Reference::default().prepare_reference(scene)
+pub fn reference(scene: &Scene) -> Result<Box<dyn Oracle>, Error> {
+    Ok(match scene.geometry {
+        Geometry::Patches(_) => Box::new(QuadricReference.prepare_reference(scene)?),
+        _ => Box::new(Reference::default().prepare_reference(scene)?),
+    })
 }
 
 /// Which rays of a request are judged.

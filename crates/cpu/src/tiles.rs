@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::{Mutex, PoisonError};
 
+use glam::Vec3;
 use rayon::prelude::*;
 use zeroset_ia::widest;
 use zeroset_raycast::{
@@ -23,13 +24,52 @@ fn place(i: usize) -> (usize, usize) {
     (i & 1 | i >> 1 & 2 | i >> 2 & 4, i >> 1 & 1 | i >> 2 & 2)
 }
 
+/// What is found out about a ray: a hit, alone or with its normal.
+pub trait Answer: Send {
+    /// The answer for a ray that is none.
+    fn of_no_ray(miss: Hit) -> Self;
+    /// The hit.
+    fn hit(&self) -> Hit;
+    /// The normal there, unless others fill it in.
+    fn normal(&self) -> Option<Vec3> {
+        None
+    }
+}
+
+impl Answer for Hit {
+    fn of_no_ray(miss: Hit) -> Self {
+        miss
+    }
+    fn hit(&self) -> Hit {
+        *self
+    }
+}
+
+impl Answer for (Hit, Vec3) {
+    fn of_no_ray(miss: Hit) -> Self {
+        (miss, Vec3::ZERO)
+    }
+    fn hit(&self) -> Hit {
+        self.0
+    }
+    fn normal(&self) -> Option<Vec3> {
+        Some(self.1)
+    }
+}
+
 /// Answers all rays, a tile at a time, in parallel. `run` gets the valid rays of a tile, in blocks
 /// of 8 by 4 pixels for a view, and gives one answer for each.
-pub(crate) fn cast(
+///
+/// # Errors
+/// If the work was asked to stop.
+///
+/// # Panics
+/// If `hits` has not as many entries as there are rays.
+pub fn cast<A: Answer>(
     rays: Rays<'_>,
     hits: &mut Hits,
     progress: &Progress,
-    run: impl Fn(&[Ray]) -> Vec<Hit> + Sync,
+    run: impl Fn(&[Ray]) -> Vec<A> + Sync,
 ) -> Result<Report, Error> {
     assert_eq!(rays.len(), hits.len(), "one answer a ray");
     let collected = Mutex::new((hits, Work::default()));
@@ -43,14 +83,14 @@ pub(crate) fn cast(
 }
 
 /// The answers of a tile, and the indices of their rays.
-struct Answers {
+struct Answers<A> {
     indices: Vec<usize>,
-    hits: Vec<Hit>,
+    answers: Vec<A>,
 }
 
-impl Answers {
+impl<A: Answer> Answers<A> {
     /// Rays that are no rays are counted and missed.
-    fn of(tile: Tile<'_>, run: &impl Fn(&[Ray]) -> Vec<Hit>) -> Self {
+    fn of(tile: Tile<'_>, run: &impl Fn(&[Ray]) -> Vec<A>) -> Self {
         let (mut indices, mut rays) = tile.rays();
         let mut invalid = Vec::new();
         if !are_valid(&rays) {
@@ -60,19 +100,23 @@ impl Answers {
             (indices, rays) = (places, Cow::Owned(lines));
             invalid = others.into_iter().map(|(index, _)| index).collect();
         }
-        let mut hits = run(&rays);
-        assert_eq!(hits.len(), rays.len(), "one answer a ray");
-        let no_ray = Work { nonfinite: 1, ..Work::default() };
-        hits.extend(invalid.iter().map(|_| Hit::miss(Certificate::MISS, no_ray)));
+        let mut answers = run(&rays);
+        assert_eq!(answers.len(), rays.len(), "one answer a ray");
+        let no_ray = Hit::miss(Certificate::MISS, Work { nonfinite: 1, ..Work::default() });
+        answers.extend(invalid.iter().map(|_| A::of_no_ray(no_ray)));
         indices.extend(invalid);
-        Self { indices, hits }
+        Self { indices, answers }
     }
 
     /// Puts them where they belong, and adds up their work.
     fn store(&self, (hits, work): &mut (&mut Hits, Work)) {
-        for (index, hit) in self.indices.iter().zip(&self.hits) {
-            hits.set(*index, *hit);
+        for (index, answer) in self.indices.iter().zip(&self.answers) {
+            let hit = answer.hit();
+            hits.set(*index, hit);
             *work += hit.work;
+            if let (Some(place), Some(normal)) = (hits.normal.get_mut(*index), answer.normal()) {
+                *place = normal;
+            }
         }
     }
 }
