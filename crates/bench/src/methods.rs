@@ -21,6 +21,8 @@ pub fn methods() -> Vec<Box<dyn Method>> {
         Box::new(zeroset_beam::BeamGpu::adaptive()),
         Box::new(zeroset_quadric::Quadrics::incremental()),
         Box::new(zeroset_quadric::Quadrics::brute()),
+        Box::new(zeroset_quadric::QuadricsGpu::incremental()),
+        Box::new(zeroset_quadric::QuadricsGpu::brute()),
         Box::new(zeroset_cpu::Reference::default()),
         Box::new(zeroset_quadric::QuadricReference),
     ]

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use zeroset_raycast::Error;
 
-use crate::device::{Binding, Buffer, Choice, Device, DeviceError, Kernel};
+use crate::device::{Binding, Buffer, Choice, Device, Kernel};
 use crate::program::Module;
 
 /// A shader, compiled for a device that it also keeps open.
@@ -25,7 +25,7 @@ impl Compiled {
         let device = Device::open(choice)?;
         let bindings = [module.binding(), Binding::Uniform, Binding::Read, Binding::Write];
         let kernel = device.kernel("rays", &source, &bindings)?;
-        let constants = constants(&device, module)?;
+        let constants = module.buffer(&device)?;
         Ok(Self { choice: choice.clone(), device, kernel, constants, caller, source })
     }
 
@@ -48,14 +48,4 @@ impl Compiled {
     pub(crate) fn is_stale(&self) -> bool {
         self.device.is_lost() || self.source.is_empty()
     }
-}
-
-fn constants(device: &Device, module: &Module) -> Result<Buffer<[f32; 4]>, DeviceError> {
-    let values = module.constants();
-    let buffer = match module.binding() {
-        Binding::Uniform => device.uniform(values.len())?,
-        Binding::Read | Binding::Write => device.storage(values.len())?,
-    };
-    device.write(&buffer, &values)?;
-    Ok(buffer)
 }

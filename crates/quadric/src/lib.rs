@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`Quadrics::incremental`]: `quadric` | over a hierarchy of boxes; patches turned away from the eye are culled |
 //! | [`Quadrics::brute`]: `quadric-brute` | the same without culling |
+//! | [`QuadricsGpu`]: `quadric-gpu`, `quadric-brute-gpu` | rasterised on a device |
 //! | [`QuadricReference`]: `quadric-reference` | enclosures of roots, with more bits where needed |
 //!
 //! A **patch** is a quadric in a ball or in a tetrahedron; a **piece** is a patch in numbers of one precision;
@@ -13,6 +14,7 @@
 mod blend;
 mod culling;
 mod equation;
+mod gpu;
 mod hierarchy;
 mod method;
 mod piece;
@@ -21,6 +23,7 @@ mod reference;
 
 pub use culling::is_hidden;
 pub use equation::{Equation, Roots};
+pub use gpu::{Culling, QuadricsGpu};
 pub use method::{Precision, Quadrics, Staging};
 pub use piece::Formula;
 pub use reference::{PreparedQuadricReference, QuadricReference};

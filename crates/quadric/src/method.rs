@@ -57,7 +57,7 @@ impl Quadrics {
     }
 }
 
-const FORMULAS: [(&str, Formula); 3] = [
+pub(crate) const FORMULAS: [(&str, Formula); 3] = [
     ("local", Formula::Local),
     ("quotient", Formula::Quotient),
     ("reciprocal", Formula::Reciprocal),

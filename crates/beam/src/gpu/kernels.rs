@@ -107,11 +107,7 @@ pub(super) struct Kernels {
 impl Kernels {
     pub(super) fn new(device: &Device, module: &Module, kernel: &str) -> Result<Self, Error> {
         let source = module.shader(kernel);
-        let values = module.constants();
-        let constants = match module.binding() {
-            Binding::Uniform => device.uniform(values.len())?,
-            Binding::Read | Binding::Write => device.storage(values.len())?,
-        };
+        let constants = module.buffer(device)?;
         use Binding::{Read, Uniform, Write};
         let bindings = [module.binding(), Uniform, Uniform, Read, Read, Write, Write, Write];
         Ok(Self {

@@ -17,6 +17,8 @@ pub enum Binding {
     Read,
     /// `var<storage, read_write>`.
     Write,
+    /// `texture_2d<f32>`, whose pixels are loaded one by one.
+    Texture,
 }
 
 /// A compute shader, compiled.
@@ -38,39 +40,13 @@ impl Device {
         source: &str,
         bindings: &[Binding],
     ) -> Result<Kernel, DeviceError> {
-        let entries: Vec<_> = bindings
-            .iter()
-            .zip(0..)
-            .map(|(kind, binding)| wgpu::BindGroupLayoutEntry {
-                binding,
-                visibility: wgpu::ShaderStages::COMPUTE,
-                ty: wgpu::BindingType::Buffer {
-                    ty: match kind {
-                        Binding::Uniform => wgpu::BufferBindingType::Uniform,
-                        Binding::Read => wgpu::BufferBindingType::Storage { read_only: true },
-                        Binding::Write => wgpu::BufferBindingType::Storage { read_only: false },
-                    },
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                count: None,
-            })
-            .collect();
         self.made.fetch_add(1, Ordering::Relaxed);
         self.guarded(|| {
             let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(label),
                 source: wgpu::ShaderSource::Wgsl(source.into()),
             });
-            let layout = self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries: &entries,
-            });
-            let whole = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(label),
-                bind_group_layouts: &[Some(&layout)],
-                immediate_size: 0,
-            });
+            let (layout, whole) = self.layout(label, bindings, wgpu::ShaderStages::COMPUTE);
             let pipeline = self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(label),
                 layout: Some(&whole),
@@ -79,8 +55,51 @@ impl Device {
                 compilation_options: Default::default(),
                 cache: None,
             });
-            Ok(Kernel { pipeline, layout, bindings: entries.len() })
+            Ok(Kernel { pipeline, layout, bindings: bindings.len() })
         })
+    }
+
+    /// The layout of a shader's bindings, alone and as that of a pipeline.
+    pub(super) fn layout(
+        &self,
+        label: &str,
+        bindings: &[Binding],
+        stages: wgpu::ShaderStages,
+    ) -> (wgpu::BindGroupLayout, wgpu::PipelineLayout) {
+        let buffer = |ty| wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let entries: Vec<_> = bindings
+            .iter()
+            .zip(0..)
+            .map(|(kind, binding)| wgpu::BindGroupLayoutEntry {
+                binding,
+                visibility: stages,
+                ty: match kind {
+                    Binding::Uniform => buffer(wgpu::BufferBindingType::Uniform),
+                    Binding::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
+                    Binding::Write => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
+                    Binding::Texture => wgpu::BindingType::Texture {
+                        sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                        view_dimension: wgpu::TextureViewDimension::D2,
+                        multisampled: false,
+                    },
+                },
+                count: None,
+            })
+            .collect();
+        let layout = self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries: &entries,
+        });
+        let whole = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(label),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        (layout, whole)
     }
 
     /// Runs a kernel with at least that many invocations, and waits; gives the time that the device
@@ -103,16 +122,16 @@ impl Device {
     }
 }
 
-/// A buffer of any type, to be bound.
+/// A buffer of any type, or a texture, to be bound.
 pub trait AsBinding {
-    /// The buffer behind it.
+    /// What is behind it.
     #[doc(hidden)]
-    fn raw(&self) -> &wgpu::Buffer;
+    fn resource(&self) -> wgpu::BindingResource<'_>;
 }
 
 impl<T> AsBinding for Buffer<T> {
-    fn raw(&self) -> &wgpu::Buffer {
-        &self.raw
+    fn resource(&self) -> wgpu::BindingResource<'_> {
+        self.raw.as_entire_binding()
     }
 }
 

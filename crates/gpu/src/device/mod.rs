@@ -3,6 +3,7 @@
 mod buffer;
 mod choice;
 mod kernel;
+mod raster;
 mod sequence;
 
 use std::collections::HashMap;
@@ -12,6 +13,7 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 pub use buffer::{Buffer, Reader};
 pub use choice::{Choice, VARIABLE, knob, read_knob};
 pub use kernel::{AsBinding, Binding, Kernel};
+pub use raster::{BoundPipeline, DepthStart, DepthTest, Format, Mixing, Pass, Pipeline, Texture};
 pub use sequence::{Bound, Clock, Groups, Step};
 use zeroset_raycast::Error;
 
@@ -188,7 +190,8 @@ impl Device {
         let limits = wgpu::Limits::default().using_resolution(adapter.limits());
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("zeroset"),
-            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+            required_features: adapter.features()
+                & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_BLENDABLE),
             required_limits: limits,
             ..Default::default()
         };

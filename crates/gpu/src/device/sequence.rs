@@ -49,23 +49,29 @@ impl Device {
     /// If there are not as many buffers as bindings.
     pub fn bind(&self, kernel: &Kernel, buffers: &[&dyn AsBinding]) -> Result<Bound, DeviceError> {
         assert_eq!(buffers.len(), kernel.bindings, "one buffer a binding");
+        let group = self.group(&kernel.layout, buffers)?;
+        Ok(Bound { pipeline: kernel.pipeline.clone(), group })
+    }
+
+    /// Buffers in the order of their bindings.
+    pub(super) fn group(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        buffers: &[&dyn AsBinding],
+    ) -> Result<wgpu::BindGroup, DeviceError> {
         self.made.fetch_add(1, Ordering::Relaxed);
         let entries: Vec<_> = buffers
             .iter()
             .zip(0..)
-            .map(|(buffer, binding)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.raw().as_entire_binding(),
-            })
+            .map(|(buffer, binding)| wgpu::BindGroupEntry { binding, resource: buffer.resource() })
             .collect();
-        let group = self.guarded(|| {
+        self.guarded(|| {
             Ok(self.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: None,
-                layout: &kernel.layout,
+                layout,
                 entries: &entries,
             }))
-        })?;
-        Ok(Bound { pipeline: kernel.pipeline.clone(), group })
+        })
     }
 
     /// Something to measure time with; none if the device cannot.
@@ -100,31 +106,9 @@ impl Device {
     ) -> Result<Option<Duration>, DeviceError> {
         self.guarded(|| {
             let mut encoder = self.device.create_command_encoder(&Default::default());
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: None,
-                timestamp_writes: clock.map(|clock| wgpu::ComputePassTimestampWrites {
-                    query_set: &clock.queries,
-                    beginning_of_pass_write_index: Some(0),
-                    end_of_pass_write_index: Some(1),
-                }),
-            });
-            for Step { bound, groups } in steps {
-                pass.set_pipeline(&bound.pipeline);
-                pass.set_bind_group(0, &bound.group, &[]);
-                match groups {
-                    Groups::Invocations(count) => {
-                        let [columns, rows] = grid(*count);
-                        pass.dispatch_workgroups(columns, rows, 1);
-                    }
-                    Groups::Indirect(counts, index) => {
-                        let offset = index * size_of::<[u32; 4]>();
-                        pass.dispatch_workgroups_indirect(&counts.raw, offset as u64);
-                    }
-                }
-            }
-            drop(pass);
+            encode(&mut encoder, steps, clock.map(|clock| clock.ends([Some(0), Some(1)])));
             if let Some(clock) = clock {
-                encoder.resolve_query_set(&clock.queries, 0..2, &clock.ticks.raw, 0);
+                clock.resolve(&mut encoder);
             }
             self.queue.submit([encoder.finish()]);
             self.wait()
@@ -132,10 +116,56 @@ impl Device {
         clock.map(|clock| self.elapsed(clock)).transpose()
     }
 
-    fn elapsed(&self, clock: &Clock) -> Result<Duration, DeviceError> {
+    pub(super) fn elapsed(&self, clock: &Clock) -> Result<Duration, DeviceError> {
         let ticks = self.read_with(&clock.reader, &clock.ticks, 2)?;
         let nanoseconds =
             ticks[1].saturating_sub(ticks[0]) as f64 * f64::from(self.queue.get_timestamp_period());
         Ok(Duration::from_nanos(nanoseconds as u64))
+    }
+}
+
+impl Clock {
+    pub(super) fn queries(&self) -> &wgpu::QuerySet {
+        &self.queries
+    }
+
+    /// Which of the two timestamps the begin and the end of a pass of kernels write.
+    pub(super) fn ends(
+        &self,
+        [begin, end]: [Option<u32>; 2],
+    ) -> wgpu::ComputePassTimestampWrites<'_> {
+        wgpu::ComputePassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: begin,
+            end_of_pass_write_index: end,
+        }
+    }
+
+    pub(super) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.resolve_query_set(&self.queries, 0..2, &self.ticks.raw, 0);
+    }
+}
+
+/// Kernels, one after another.
+pub(super) fn encode(
+    encoder: &mut wgpu::CommandEncoder,
+    steps: &[Step<'_>],
+    timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
+) {
+    let mut pass =
+        encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
+    for Step { bound, groups } in steps {
+        pass.set_pipeline(&bound.pipeline);
+        pass.set_bind_group(0, &bound.group, &[]);
+        match groups {
+            Groups::Invocations(count) => {
+                let [columns, rows] = grid(*count);
+                pass.dispatch_workgroups(columns, rows, 1);
+            }
+            Groups::Indirect(counts, index) => {
+                let offset = index * size_of::<[u32; 4]>();
+                pass.dispatch_workgroups_indirect(&counts.raw, offset as u64);
+            }
+        }
     }
 }

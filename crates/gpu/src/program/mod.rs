@@ -18,6 +18,8 @@ use zeroset_expr::{Instruction, Op, Tape};
 use zeroset_ia::{Affine, Interval, Rounding, portable};
 use zeroset_raycast::Unsupported;
 
+use crate::device::{Binding, Buffer, Device, DeviceError};
+
 /// What a function computes with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Numbers {
@@ -190,12 +192,22 @@ impl Module {
     }
 
     /// How the kernel's buffer of constants is bound.
-    pub fn binding(&self) -> crate::device::Binding {
-        if self.constants.len() <= MOST_UNIFORM {
-            crate::device::Binding::Uniform
-        } else {
-            crate::device::Binding::Read
-        }
+    pub fn binding(&self) -> Binding {
+        if self.constants.len() <= MOST_UNIFORM { Binding::Uniform } else { Binding::Read }
+    }
+
+    /// The kernel's buffer of constants, with them.
+    ///
+    /// # Errors
+    /// If there is not enough memory.
+    pub fn buffer(&self, device: &Device) -> Result<Buffer<[f32; 4]>, DeviceError> {
+        let values = self.constants();
+        let buffer = match self.binding() {
+            Binding::Uniform => device.uniform(values.len())?,
+            _ => device.storage(values.len())?,
+        };
+        device.write(&buffer, &values)?;
+        Ok(buffer)
     }
 
     /// The constants, in the order in which functions were added; never empty.
