@@ -1,11 +1,14 @@
 //! Every method of the registry conforms: on surfaces of the catalogue of every kind, and on equations
-//! as they are typed.
+//! as they are typed; and on quadrics in bounds.
+
+#[path = "../crates/quadric/tests/scenes/mod.rs"]
+mod scenes;
 
 use glam::DVec3;
 use zeroset_bench::conformance::check_with;
 use zeroset_bench::{Registry, Remembering, truth};
 use zeroset_raycast::catalogue::resolve;
-use zeroset_raycast::{Domain, Scene};
+use zeroset_raycast::{Blending, Domain, Scene, Sides};
 
 /// Checks every method on a surface.
 fn conforms(text: &str) {
@@ -108,4 +111,13 @@ fn on_domains_that_single_precision_does_not_hold() {
         let domain = Domain::new(DVec3::splat(-half), DVec3::splat(half)).expect("it is a box");
         conforms_on(&Scene { domain, ..sphere.scene().expect("it is well formed") });
     }
+}
+
+#[test]
+fn on_quadrics_in_balls_and_in_tetrahedra() {
+    let at = DVec3::new(0.25, -1.0, 0.5);
+    conforms_on(&scenes::balls(at, 300, 0.2, Blending::None));
+    conforms_on(&scenes::balls(at, 300, 0.2, Blending::Weighted { offset: 0.5 }));
+    conforms_on(&scenes::cubes(at, scenes::sphere(1.0), 1.25, 4, Sides::Front));
+    conforms_on(&scenes::cubes(at, scenes::sphere(1.0), 1.25, 3, Sides::Both));
 }
