@@ -74,7 +74,7 @@ const SLOWEST_FRAME: Duration = Duration::from_secs(10);
 impl Compare {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let (surface, scene) = surface::scene(&self.scene)?;
+        let (equation, scene) = surface::scene(&self.scene)?;
         let view = self.camera.view(&scene.domain, self.size)?;
         let mut methods = self.select(&scene)?;
         self.knobs.set(&mut methods, &scene)?;
@@ -104,7 +104,7 @@ impl Compare {
         drop(bar);
 
         let context = Context {
-            equation: surface.equation,
+            equation,
             precision: Some(self.knobs.precision(&scene)),
             revision: env!("ZEROSET_REVISION").into(),
         };

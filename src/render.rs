@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use clap::Args;
 use zeroset::bench;
-use zeroset::raycast::{Method, Progress, Sampling, Scene, View};
+use zeroset::raycast::{Geometry, Method, Progress, Sampling, Scene, View};
 use zeroset::shade::ViewKind;
 
 use crate::animate::Animator;
@@ -41,9 +41,9 @@ there are overwritten, unless --resume keeps them. Ctrl-C keeps what is finished
 pub(crate) struct Render {
     #[command(flatten)]
     scene: SceneOptions,
-    /// The method; `zeroset list methods` lists them
-    #[arg(long, value_name = "M", default_value = "kmarch")]
-    method: String,
+    /// The method; `zeroset list methods` lists them [default: kmarch; quadric for pieces]
+    #[arg(long, value_name = "M")]
+    method: Option<String>,
     /// The size in pixels
     #[arg(long, value_name = "WxH", value_parser = options::size, default_value = "512x512")]
     #[arg(allow_hyphen_values = true)]
@@ -186,17 +186,26 @@ impl Render {
         let view = self.camera.view(&scene.domain, self.size)?;
         let side = self.samples.isqrt();
         let view = View::new(view.camera(), side * view.width, side * view.height);
-        let mut methods = [bench::method(&self.method).map_err(Failure::usage)?];
+        let mut methods = [bench::method(self.method(&scene)).map_err(Failure::usage)?];
         self.methods.set(&mut methods, &scene)?;
         let [method] = methods;
         method.supports(&scene).map_err(Failure::work)?;
         Ok(Setup { scene, view, method })
     }
 
+    /// The method's id.
+    fn method(&self, scene: &Scene) -> &str {
+        let default = match scene.geometry {
+            Geometry::Patches(_) => "quadric",
+            _ => "kmarch",
+        };
+        self.method.as_deref().unwrap_or(default)
+    }
+
     fn destination(&self, scene: &Scene) -> Destination {
         self.out.clone().unwrap_or_else(|| {
             let stem = output::file_stem(&scene.id);
-            let name = format!("{stem}-{}-{}.png", self.method, self.view);
+            let name = format!("{stem}-{}-{}.png", self.method(scene), self.view);
             Destination::File(Path::new("out").join(name))
         })
     }

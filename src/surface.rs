@@ -6,6 +6,7 @@ use zeroset::raycast::{Error, Scene};
 
 use crate::failure::Failure;
 use crate::options::SceneOptions;
+use crate::pieces;
 
 /// The surface that a text means.
 pub(crate) fn resolve(text: &str) -> Result<Surface, Failure> {
@@ -19,8 +20,15 @@ pub(crate) fn resolve(text: &str) -> Result<Surface, Failure> {
     })
 }
 
-/// The surface asked for, and its scene.
-pub(crate) fn scene(options: &SceneOptions) -> Result<(Surface, Scene), Failure> {
+/// The scene asked for, and its equation, or the name of its pieces.
+pub(crate) fn scene(options: &SceneOptions) -> Result<(String, Scene), Failure> {
+    if let Some(scene) = pieces::scene(&options.surface)? {
+        if options.domain.is_some() || !options.parameters.is_empty() {
+            let why = "--param and --domain are for equations; pieces are bounded themselves";
+            return Err(Failure::usage(why));
+        }
+        return Ok((options.surface.trim().into(), scene));
+    }
     let mut surface = resolve(&options.surface)?;
     surface.domain = options.domain.or(surface.domain);
     let mut parameters = Parameters::default();
@@ -31,7 +39,7 @@ pub(crate) fn scene(options: &SceneOptions) -> Result<(Surface, Scene), Failure>
     let function = surface.function().map_err(|error| unreadable(&error))?;
     function.tape(&parameters, 128).map_err(Error::from)?;
     let scene = surface.scene_with(&parameters).map_err(|error| unreadable(&error))?;
-    Ok((surface, scene))
+    Ok((surface.equation, scene))
 }
 
 /// The place in the equation, and what to write instead.
