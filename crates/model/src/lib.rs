@@ -1,3 +1,12 @@
 //! Surfaces in quadratic pieces, \[stoll2006\], from the data that they approximate.
 //!
 //! Each module ends in [`Patches`](zeroset_raycast::Patches), which the methods of `zeroset-quadric` cast.
+//!
+//! | module | from | to |
+//! |---|---|---|
+//! | [`points`] | files of points | points with normals |
+//! | [`slim`] | points with normals | balls with quadrics, blended |
+
+mod neighbours;
+pub mod points;
+pub mod slim;
