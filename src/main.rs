@@ -17,10 +17,12 @@ mod numbers;
 mod options;
 mod output;
 mod pictures;
+mod pieces;
 mod ray_file;
 mod render;
 mod resident;
 mod show;
+mod slim;
 mod surface;
 mod table;
 mod trace;
@@ -55,6 +57,7 @@ enum Command {
     Compare(Box<compare::Compare>),
     Trace(Box<trace::Trace>),
     Tune(Box<tune::Tune>),
+    Slim(slim::SlimCommand),
     Devices(devices::Devices),
 }
 
@@ -83,6 +86,7 @@ fn run(command_line: &CommandLine) -> Result<(), Failure> {
         Command::Compare(compare) => compare.run(),
         Command::Trace(trace) => trace.run(),
         Command::Tune(tune) => tune.run(),
+        Command::Slim(command) => command.run(),
         Command::Devices(devices) => devices.run(),
     }
 }
