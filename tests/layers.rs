@@ -9,7 +9,7 @@ const LAYERS: [&[&str]; 8] = [
     &["zeroset-ia"],
     &["zeroset-expr"],
     &["zeroset-raycast"],
-    &["zeroset-cpu", "zeroset-shade"],
+    &["zeroset-cpu", "zeroset-model", "zeroset-shade"],
     &["zeroset-gpu"],
     &["zeroset-beam"],
     &["zeroset-bench"],

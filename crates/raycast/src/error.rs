@@ -20,6 +20,9 @@ pub enum Error {
     /// The domain is empty, inverted or not finite.
     #[error("{0}")]
     Domain(String),
+    /// Patches that are none.
+    #[error("{0}")]
+    Patches(String),
     /// The answer would take longer than the caller allows.
     #[error("{0}")]
     TooSlow(String),

@@ -1,6 +1,7 @@
 //! The contract: what is cast at what, and what the answer means.
 //!
-//! - A [`Scene`] holds the geometry (a function, so far) and the [`Domain`] in which roots count.
+//! - A [`Scene`] holds the geometry, a function or [`Patches`] of quadrics, and the [`Domain`] in which
+//!   roots count.
 //! - [`Rays`] are a [`View`] (a camera and its pixels) or a [`RayBatch`].
 //! - A [`Method`] is an algorithm with its knobs; prepared for a scene it is an [`Intersector`].
 //! - [`Hits`] are the answers: a bracket on the ray, and a [`Certificate`] of what was proved.
@@ -14,7 +15,9 @@ pub mod error;
 pub mod hit;
 pub mod knob;
 pub mod method;
+pub mod patches;
 pub mod progress;
+pub mod quadric;
 pub mod ray;
 pub mod scene;
 pub mod view;
@@ -25,7 +28,9 @@ pub use error::{Error, KnobError, Unsupported};
 pub use hit::{Certificate, Hit, Hits, Request, Work};
 pub use knob::Knob;
 pub use method::{Intersector, Method, Report, Sampling};
+pub use patches::{Blending, Bound, HalfSpace, Patch, Patches, Sides};
 pub use progress::Progress;
+pub use quadric::Quadric;
 pub use ray::{Ray, RayBatch, Rays};
 pub use scene::{Geometry, Scene};
 pub use view::{Camera, Projection, View};

@@ -1,15 +1,19 @@
 //! Scenes: what rays are cast at.
 
+use std::sync::Arc;
+
 use zeroset_expr::{Function, Parameters};
 
-use crate::Domain;
+use crate::{Domain, Patches};
 
-/// The shape in a scene. Other kinds of geometry will join.
+/// The shape in a scene.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Geometry {
     /// The zero set of a function.
     Implicit(Function),
+    /// Quadrics in bounds.
+    Patches(Arc<Patches>),
 }
 
 /// What rays are cast at: a geometry, the values of its parameters, and the domain.
@@ -35,6 +39,17 @@ impl Scene {
             geometry: Geometry::Implicit(function),
             parameters: Parameters::default(),
             domain,
+            published_step: None,
+        }
+    }
+
+    /// Patches of quadrics; their bounds are the domain.
+    pub fn of_patches(id: impl Into<String>, patches: Patches) -> Self {
+        Self {
+            id: id.into(),
+            domain: patches.domain(),
+            geometry: Geometry::Patches(Arc::new(patches)),
+            parameters: Parameters::default(),
             published_step: None,
         }
     }
