@@ -1,9 +1,10 @@
 //! An isosurface as tetrahedra.
 
+use rayon::prelude::*;
 use zeroset_raycast::{Blending, Bound, Error, Patch, Patches, Sides};
 
 use super::lattice::Lattice;
-use super::mask::{Ordinates, PAIRS, SAMPLES};
+use super::mask::{Ordinates, SAMPLES};
 use super::sector::SECTORS;
 use super::{Outside, Sector};
 
@@ -95,14 +96,17 @@ impl Tets {
 
     /// The tetrahedra in the order of their cubes in the volume.
     pub fn all(&self) -> impl Iterator<Item = Tet> {
-        self.cells.iter().flat_map(|cell| {
-            let ordinates = Ordinates::new(&cell.samples);
-            let number = self.lattice.cell(cell.number as usize);
-            cell.sectors().map(move |sector| Tet {
-                cell: number,
-                sector,
-                ordinates: ordinates.of(sector),
-            })
+        self.cells.iter().flat_map(|cell| self.of(cell))
+    }
+
+    /// Those of a cube.
+    fn of(&self, cell: &Cell) -> impl Iterator<Item = Tet> + use<> {
+        let ordinates = Ordinates::new(&cell.samples);
+        let place = self.lattice.cell(cell.number as usize);
+        cell.sectors().map(move |sector| Tet {
+            cell: place,
+            sector,
+            ordinates: ordinates.of(sector),
         })
     }
 
@@ -112,8 +116,9 @@ impl Tets {
     /// # Errors
     /// If there are none.
     pub fn patches(&self, sides: Sides) -> Result<Patches, Error> {
-        let patches = self.all().map(|tet| self.patch(&tet)).collect();
-        Patches::new(patches, sides, Blending::None)
+        let cells = self.cells.par_iter();
+        let patches = cells.flat_map_iter(|cell| self.of(cell).map(|tet| self.patch(&tet)));
+        Patches::new(patches.collect(), sides, Blending::None)
     }
 
     fn patch(&self, tet: &Tet) -> Patch {
@@ -122,12 +127,21 @@ impl Tets {
         if self.outside == Outside::Below {
             ordinates = ordinates.map(|b| -b);
         }
-        debug_assert_eq!(ordinates.len(), PAIRS.len());
         Patch {
             origin: self.lattice.centre(tet.cell),
             quadric: tet.sector.quadric(&ordinates, self.lattice.spacing),
             bound: Bound::Tetrahedron(corners.map(|corner| self.lattice.corner(tet.cell, corner))),
             clip: None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cubes_are_as_small_as_documented() {
+        assert_eq!((size_of::<Cell>(), size_of::<Patch>()), (116, 272));
     }
 }
