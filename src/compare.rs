@@ -155,6 +155,7 @@ impl Compare {
         if self.is_default_selection() {
             let methods: Vec<_> = registry
                 .iter()
+                .filter(|m| m.geometry() == scene.geometry.kind())
                 .filter(|m| match m.supports(scene) {
                     Ok(()) => true,
                     Err(why) => {

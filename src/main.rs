@@ -28,6 +28,7 @@ mod table;
 mod trace;
 mod track;
 mod tune;
+mod volume;
 mod watch;
 
 use std::process::ExitCode;
@@ -58,6 +59,7 @@ enum Command {
     Trace(Box<trace::Trace>),
     Tune(Box<tune::Tune>),
     Slim(slim::SlimCommand),
+    Volume(volume::VolumeCommand),
     Devices(devices::Devices),
 }
 
@@ -87,6 +89,7 @@ fn run(command_line: &CommandLine) -> Result<(), Failure> {
         Command::Trace(trace) => trace.run(),
         Command::Tune(tune) => tune.run(),
         Command::Slim(command) => command.run(),
+        Command::Volume(command) => command.run(),
         Command::Devices(devices) => devices.run(),
     }
 }

@@ -18,7 +18,7 @@ const MOST_PIXELS: usize = 1 << 26;
 /// A surface, the values of its parameters, and where its roots count.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct SceneOptions {
-    /// A catalogue id; else a file that holds an equation, or pieces (FILE.slim), or a catalogue of
+    /// A catalogue id; else a file that holds an equation, or pieces (FILE.slim, FILE.tets), or a catalogue of
     /// your own: FILE.toml, or FILE.toml#ID; else an equation such as "x^4+y^4+z^4=1"
     #[arg(value_name = "SURFACE", allow_hyphen_values = true)]
     pub(crate) surface: String,

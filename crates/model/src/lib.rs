@@ -6,7 +6,12 @@
 //! |---|---|---|
 //! | [`points`] | files of points | points with normals |
 //! | [`slim`] | points with normals | balls with quadrics, blended |
+//! | [`volume`] | files of samples on a grid, formulas | volumes |
+//! | [`spline`] | volumes | tetrahedra of an isosurface |
 
+mod checksum;
 mod neighbours;
 pub mod points;
 pub mod slim;
+pub mod spline;
+pub mod volume;

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use zeroset_raycast::{
-    Error, Geometry, Intersector, Knob, KnobError, Method, Patches, Scene, Unsupported, knob,
+    Error, Geometry, GeometryKind, Intersector, Knob, KnobError, Method, Patches, Scene,
+    Unsupported, knob,
 };
 
 use crate::piece::Formula;
@@ -89,6 +90,10 @@ impl Method for Quadrics {
             Staging::Incremental => "quadrics in bounds, those turned away culled [stoll2006]",
             Staging::Brute => "quadrics in bounds, all of them for every ray [stoll2006]",
         }
+    }
+
+    fn geometry(&self) -> GeometryKind {
+        GeometryKind::Patches
     }
 
     fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {

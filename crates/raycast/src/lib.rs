@@ -32,5 +32,5 @@ pub use patches::{Blending, Bound, HalfSpace, Patch, Patches, Sides};
 pub use progress::Progress;
 pub use quadric::Quadric;
 pub use ray::{Ray, RayBatch, Rays};
-pub use scene::{Geometry, Scene};
+pub use scene::{Geometry, GeometryKind, Scene};
 pub use view::{Camera, Projection, View};

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use zeroset_expr::Parameters;
 
-use crate::{Error, Hits, Knob, KnobError, Progress, Rays, Scene, Unsupported, Work};
+use crate::{Error, GeometryKind, Hits, Knob, KnobError, Progress, Rays, Scene, Unsupported, Work};
 
 /// What a ray stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,10 @@ pub trait Method: Debug + Send + Sync {
     fn id(&self) -> &'static str;
     /// One line: what it is, with the paper's key.
     fn summary(&self) -> &'static str;
+    /// The kind of geometry that it is for.
+    fn geometry(&self) -> GeometryKind {
+        GeometryKind::Function
+    }
     /// Can it handle the scene?
     ///
     /// # Errors

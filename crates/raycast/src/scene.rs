@@ -16,6 +16,25 @@ pub enum Geometry {
     Patches(Arc<Patches>),
 }
 
+/// A kind of geometry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GeometryKind {
+    /// [`Geometry::Implicit`].
+    Function,
+    /// [`Geometry::Patches`].
+    Patches,
+}
+
+impl Geometry {
+    /// Its kind.
+    pub fn kind(&self) -> GeometryKind {
+        match self {
+            Self::Implicit(_) => GeometryKind::Function,
+            Self::Patches(_) => GeometryKind::Patches,
+        }
+    }
+}
+
 /// What rays are cast at: a geometry, the values of its parameters, and the domain.
 #[derive(Clone, Debug)]
 pub struct Scene {

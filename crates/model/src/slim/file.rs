@@ -7,6 +7,7 @@ use glam::{DMat3, DVec3};
 use zeroset_raycast::{HalfSpace, Quadric};
 
 use super::{Ball, Slim};
+use crate::checksum::checksum;
 
 /// Why a file is no surface.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -52,7 +53,7 @@ impl Slim {
                 bytes.extend(number.to_le_bytes());
             }
         }
-        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+        bytes.extend(checksum(&bytes).to_le_bytes());
         fs::write(path, bytes).map_err(|error| FileError::Unusable {
             file: path.display().to_string(),
             why: format!("cannot be written: {error}"),
@@ -118,7 +119,7 @@ fn parse(bytes: &[u8]) -> Result<Slim, String> {
         ));
     }
     let (checked, sum) = bytes.split_at(bytes.len() - 4);
-    if sum != crc32fast::hash(checked).to_le_bytes() {
+    if sum != checksum(checked).to_le_bytes() {
         return Err("its checksum is wrong: it was changed".into());
     }
     let ball = |bytes: &[u8]| {

@@ -13,7 +13,8 @@ use std::sync::Arc;
 use zeroset_gpu::device::{self, Format};
 use zeroset_gpu::{Choice, Device};
 use zeroset_raycast::{
-    Blending, Error, Intersector, Knob, KnobError, Method, Patches, Scene, Unsupported, knob,
+    Blending, Error, GeometryKind, Intersector, Knob, KnobError, Method, Patches, Scene,
+    Unsupported, knob,
 };
 
 use crate::method::{FORMULAS, Staging, patches};
@@ -95,6 +96,10 @@ impl Method for QuadricsGpu {
             }
             Staging::Brute => "the same with everything in the fragment stage [stoll2006]",
         }
+    }
+
+    fn geometry(&self) -> GeometryKind {
+        GeometryKind::Patches
     }
 
     fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {

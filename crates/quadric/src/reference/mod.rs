@@ -15,8 +15,8 @@ use std::sync::Arc;
 use zeroset_cpu::{Class, Truth, tiles};
 use zeroset_expr::Parameters;
 use zeroset_raycast::{
-    Blending, Error, Hit, Hits, Intersector, Knob, KnobError, Method, Patches, Progress, Ray, Rays,
-    Report, Request, Scene, Unsupported, Work, knob,
+    Blending, Error, GeometryKind, Hit, Hits, Intersector, Knob, KnobError, Method, Patches,
+    Progress, Ray, Rays, Report, Request, Scene, Unsupported, Work, knob,
 };
 
 use crate::hierarchy::Hierarchy;
@@ -60,6 +60,10 @@ impl Method for QuadricReference {
 
     fn summary(&self) -> &'static str {
         "proven first roots of quadrics in bounds, with more bits where needed"
+    }
+
+    fn geometry(&self) -> GeometryKind {
+        GeometryKind::Patches
     }
 
     fn supports(&self, scene: &Scene) -> Result<(), Unsupported> {
