@@ -1,3 +1,5 @@
 //! Surfaces in quadratic pieces, \[stoll2006\], from the data that they approximate.
 //!
 //! Each module ends in [`Patches`](zeroset_raycast::Patches), which the methods of `zeroset-quadric` cast.
+
+pub mod bilinear;
