@@ -3,3 +3,4 @@
 //! Each module ends in [`Patches`](zeroset_raycast::Patches), which the methods of `zeroset-quadric` cast.
 
 pub mod bilinear;
+pub mod skin;
