@@ -10,7 +10,8 @@ use casting::{Crossing, crossings};
 const ALWAYS: std::ops::RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
 
 fn cases(count: u32) -> ProptestConfig {
-    ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(count) }
+    let plain = ProptestConfig::with_cases(count);
+    ProptestConfig { failure_persistence: None, max_global_rejects: 1 << 16, ..plain }
 }
 
 fn point() -> impl Strategy<Value = DVec3> {
@@ -156,7 +157,8 @@ proptest! {
             let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[u, v]| quad.normal(u, v));
             corners.iter().all(|n| n.dot(corners[0]) > 0.0)
         };
-        prop_assume!(!quad.is_planar() || is_convex);
+        // Where a flat one folds, its quadric has two roots that are nearly one.
+        prop_assume!(quad.flatness() > 0.01 || is_convex);
         let surface = patches(&[quad]).unwrap();
         let hits = crossings(&surface, x - 2.0 * direction, direction);
         let off = hits.iter().map(|hit| (hit.t - 2.0).abs()).fold(f64::INFINITY, f64::min);

@@ -15,15 +15,17 @@
 //! other sheet of its quadric is about g away, unless it is nearly a parallelogram. A root in a precision of
 //! e is then found e/g off, and since faces of the tetrahedron meet at an angle of g, rays that pass within
 //! e/g^2 of an edge may be lost. Two triangles lie at most g off and lose none. Both errors are alike at the
-//! cube root of e: for double precision at g = 2^-17, where two triangles take over. In single precision that
-//! is 2^-8: between the two, quadrilaterals belong to double precision.
+//! cube root of e: for double precision at g = 2^-17, where [`patches`] changes to triangles. For single
+//! precision that is 2^-8; [`patches_flat`] changes earlier. Of 20000 rays at convex quadrilaterals of side 2
+//! with heights of up to 1e-2, 1e-3 and 1e-4, single precision loses 4, 32 and 255 at the edges of their
+//! quadrics, and double precision none.
 
 mod intersection;
 mod strip;
 mod surface;
 
 pub use strip::{folded_strip, twisted};
-pub use surface::{patches, triangle_patches};
+pub use surface::{patches, patches_flat, triangle_patches};
 
 use glam::{DAffine3, DMat3, DVec3};
 use zeroset_raycast::Quadric;
@@ -93,7 +95,13 @@ impl Quadrilateral {
 
     /// Do the corners lie in a plane, but for 2^-17 of the longest distance between two?
     pub fn is_planar(&self) -> bool {
-        !(self.width() > PLANAR * self.size())
+        !(self.flatness() > PLANAR)
+    }
+
+    /// The width of the tetrahedron in units of the longest distance between two corners: 0 in a plane, and
+    /// NaN for no distance at all.
+    pub fn flatness(&self) -> f64 {
+        self.width() / self.size()
     }
 
     /// The longest distance between two corners.

@@ -11,16 +11,26 @@ const LINE: f64 = 1.0 / (1u64 << 40) as f64;
 /// Quadrilaterals as quadrics in the tetrahedra between their corners; planar ones as two triangles, each a
 /// plane. Both sides are seen.
 ///
-/// Corners are given about a point of single precision near them, which loses nothing if they are of single
-/// precision too: quadrilaterals that share an edge then share its ends exactly.
+/// Corners are given about a point of single precision near them. Quadrilaterals that share an edge share its
+/// ends but for half a rounding of the quadrilaterals' size.
 ///
 /// # Errors
 /// If there are none, or one is not finite or has all corners on a line.
 pub fn patches(all: &[Quadrilateral]) -> Result<Patches, Error> {
+    patches_flat(all, 0.0)
+}
+
+/// As [`patches`], with two triangles for all that have no more than this
+/// [`flatness`](Quadrilateral::flatness): for methods in single precision.
+///
+/// # Errors
+/// As [`patches`].
+pub fn patches_flat(all: &[Quadrilateral], flatness: f64) -> Result<Patches, Error> {
     let pieces = all.iter().enumerate().map(|(i, quad)| {
         let origin = quad.check(i)?;
         let near = quad.about(origin);
-        Ok(match near.quadric() {
+        let quadric = near.quadric().filter(|_| near.flatness() > flatness);
+        Ok(match quadric {
             Some(quadric) => {
                 vec![Patch { origin, quadric, bound: Bound::Tetrahedron(near.0), clip: None }]
             }
@@ -83,7 +93,7 @@ impl Quadrilateral {
         let both = [self.two_triangles(), Self([p2, p3, p4, p1]).two_triangles()];
         let key = |halves: &[[DVec3; 3]; 2]| {
             let [a, b] = halves.map(|[p, q, r]| (q - p).cross(r - p));
-            ((a + b).length() - (a - b).length().max(0.0), a.length() + b.length())
+            (a.dot(b), a.length() + b.length())
         };
         let [first, second] = [&both[0], &both[1]].map(key);
         let is_inside = |key: (f64, f64)| key.0 >= 0.0 && key.1 > 0.0;
@@ -146,6 +156,11 @@ mod tests {
         assert_eq!(patches(&[pointed]).unwrap().all().len(), 1);
         assert_eq!(patches(&[square]).unwrap().all().len(), 2);
         assert_eq!(triangle_patches(&[square]).unwrap(), patches(&[square]).unwrap());
+        let twisted = crate::bilinear::twisted(0.01);
+        assert!((twisted.flatness() - 0.01 / 2f64.sqrt()).abs() < 1e-4);
+        for (flatness, count) in [(0.0, 1), (0.007, 1), (0.008, 2)] {
+            assert_eq!(patches_flat(&[twisted], flatness).unwrap().all().len(), count);
+        }
     }
 
     #[test]

@@ -185,6 +185,15 @@ mod tests {
     }
 
     #[test]
+    fn a_vertex_too_few_is_noticed() {
+        let at = [DVec3::ZERO, DVec3::X, DVec3::Y].map(|place| (place, 0.5));
+        let mut vertices = diagram(&at).0.vertices;
+        assert!(is_closed(&vertices, 3));
+        vertices.pop();
+        assert!(!is_closed(&vertices, 3) && !is_closed(&[], 3));
+    }
+
+    #[test]
     fn vertices_have_equal_and_least_power() {
         let place = |i: u64| DVec3::from([3 * i, 3 * i + 1, 3 * i + 2].map(spread));
         let given: Vec<_> = (0..12).map(|i| (place(i), 0.3 + 0.2 * spread(99 + i))).collect();

@@ -7,7 +7,7 @@ use super::Atom;
 /// Points whose coordinates are multiples of `step`, a power of two.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lattice {
-    /// The middle of the atoms, a point of it.
+    /// The middle of the atoms; local coordinates are about it.
     origin: DVec3,
     /// A power of two: the molecule's size, or up to twice that.
     scale: f64,
@@ -21,9 +21,7 @@ impl Lattice {
         let most = atoms.iter().map(|a| a.centre + a.radius).fold(DVec3::NEG_INFINITY, DVec3::max);
         let scale = (most - least).max_element().log2().ceil().exp2();
         let step = scale / f64::from(1u32 << 26);
-        let mut lattice = Self { origin: DVec3::ZERO, scale, step };
-        lattice.origin = lattice.nearest(0.5 * (least + most));
-        lattice
+        Self { origin: 0.5 * (least + most), scale, step }
     }
 
     /// A point of space about the origin, in units of the scale.
