@@ -9,6 +9,7 @@ use zeroset::raycast::catalogue::{Catalogue, Surface};
 
 use crate::failure::Failure;
 use crate::output;
+use crate::pieces::BUILTINS;
 
 /// Lists the surfaces of the catalogue, and the methods with their knobs.
 #[derive(Args, Clone, Debug)]
@@ -53,6 +54,9 @@ fn surfaces() -> String {
     table.load_preset(presets::NOTHING).set_header(["surface", "degree", "name"]);
     for surface in Catalogue::builtin().iter() {
         table.add_row([surface.id.clone(), degree(surface), surface.name.clone()]);
+    }
+    for builtin in &BUILTINS {
+        table.add_row([builtin.id, "2", builtin.name]);
     }
     format!("{}\n", table.trim_fmt())
 }

@@ -1,17 +1,60 @@
-//! Surfaces in pieces: files that `zeroset slim build` and `zeroset volume build` made.
+//! Surfaces in pieces: built-in ones, and files that `zeroset slim build` and `zeroset volume build` made.
 
 use std::path::Path;
 
 use zeroset::model::slim::Slim;
 use zeroset::model::spline::Tets;
-use zeroset::raycast::{Scene, Sides};
+use zeroset::model::{bilinear, skin};
+use zeroset::raycast::{Error, Patches, Scene, Sides};
 
 use crate::destination::has_extension;
 use crate::failure::Failure;
 
-/// The scene of a file of pieces; none if the text names no such file.
+/// A built-in surface in pieces.
+pub(crate) struct Builtin {
+    /// What it is called.
+    pub(crate) id: &'static str,
+    /// What it is.
+    pub(crate) name: &'static str,
+    patches: fn() -> Result<Patches, Error>,
+}
+
+/// The built-in surfaces in pieces.
+pub(crate) const BUILTINS: [Builtin; 5] = [
+    Builtin {
+        id: "skin-water",
+        name: "Skin surface of a water molecule",
+        patches: || skin::Skin::default().patches(&skin::water().atoms()),
+    },
+    Builtin {
+        id: "skin-ethanol",
+        name: "Skin surface of an ethanol molecule",
+        patches: || skin::Skin::default().patches(&skin::ethanol().atoms()),
+    },
+    Builtin {
+        id: "skin-benzene",
+        name: "Skin surface of a benzene molecule",
+        patches: || skin::Skin::default().patches(&skin::benzene().atoms()),
+    },
+    Builtin {
+        id: "folded-strip",
+        name: "Twisted bilinear quadrilaterals",
+        patches: || bilinear::patches(&bilinear::folded_strip()),
+    },
+    Builtin {
+        id: "folded-strip-triangles",
+        name: "The same quadrilaterals as two triangles each",
+        patches: || bilinear::triangle_patches(&bilinear::folded_strip()),
+    },
+];
+
+/// The scene of a text that names pieces; none if it names something else.
 pub(crate) fn scene(text: &str) -> Result<Option<Scene>, Failure> {
-    let path = Path::new(text.trim());
+    let text = text.trim();
+    if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.id == text) {
+        return Ok(Some(Scene::of_patches(builtin.id, (builtin.patches)()?)));
+    }
+    let path = Path::new(text);
     let patches = if has_extension(path, "slim") {
         Slim::read(path).map_err(Failure::work)?.patches()?
     } else if has_extension(path, "tets") {

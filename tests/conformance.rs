@@ -7,6 +7,8 @@ mod scenes;
 use glam::DVec3;
 use zeroset_bench::conformance::check_with;
 use zeroset_bench::{Registry, Remembering, truth};
+use zeroset_model::bilinear;
+use zeroset_model::skin::{self, Skin};
 use zeroset_raycast::catalogue::resolve;
 use zeroset_raycast::{Blending, Domain, Scene, Sides};
 
@@ -120,4 +122,8 @@ fn on_quadrics_in_balls_and_in_tetrahedra() {
     conforms_on(&scenes::balls(at, 300, 0.2, Blending::Weighted { offset: 0.5 }));
     conforms_on(&scenes::cubes(at, scenes::sphere(1.0), 1.25, 4, Sides::Front));
     conforms_on(&scenes::cubes(at, scenes::sphere(1.0), 1.25, 3, Sides::Both));
+    let water = Skin::default().patches(&skin::water().atoms()).expect("a molecule");
+    conforms_on(&Scene::of_patches("water", water));
+    let strip = bilinear::patches(&bilinear::folded_strip()).expect("quadrilaterals");
+    conforms_on(&Scene::of_patches("strip", strip));
 }
