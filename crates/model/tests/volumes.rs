@@ -44,6 +44,7 @@ fn every_format_gives_the_same_samples() {
         let steps = if has_steps { DVec3::new(0.5, 1.0, 2.0) } else { DVec3::ONE };
         assert_eq!(volume.spacing(), steps, "{name}");
         let has_origin = ["mha", "mhd", "nrrd", "nhdr"].iter().any(|ending| name.ends_with(ending));
+        let has_origin = has_origin && name != "steps.nrrd";
         let origin = if has_origin { DVec3::new(1.0, 2.0, 3.0) } else { DVec3::ZERO };
         assert_eq!(volume.origin(), origin, "{name}");
     }

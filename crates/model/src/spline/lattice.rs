@@ -80,3 +80,39 @@ impl Lattice {
         Some((cell, steps - DVec3::from(cell.map(|n| n as f64))))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::spline::Sector;
+
+    /// What is lost when a + b is rounded (Knuth).
+    fn rounding(a: DVec3, b: DVec3) -> DVec3 {
+        let sum = a + b;
+        let rest = sum - a;
+        (a - (sum - rest)) + (b - rest)
+    }
+
+    proptest! {
+        #[test]
+        fn a_corner_is_one_point_from_every_cube(
+            spacing in prop::array::uniform3(0.5_f64..2.0),
+            start in prop::array::uniform3(prop_oneof![-2.0_f64..2.0, -1e6_f64..1e6]),
+        ) {
+            let spacing = DVec3::from(spacing);
+            let lattice = Lattice::new([6; 3], spacing, DVec3::from(start) * spacing);
+            for n in 1..5 {
+                let cell = [n; 3];
+                let centre = lattice.centre(cell);
+                for corner in Sector::all().flat_map(Sector::corners) {
+                    let from_centre = lattice.corner(cell, corner);
+                    let place = corner.map(|c| 2 * n as i64 + i64::from(c));
+                    prop_assert_eq!(rounding(centre, from_centre), DVec3::ZERO);
+                    prop_assert_eq!(centre + from_centre, lattice.place(place));
+                }
+            }
+        }
+    }
+}

@@ -50,6 +50,12 @@ fn nrrd(lines: &str) -> Vec<u8> {
     .into_bytes()
 }
 
+/// One that has only two of its steps.
+fn nrrd_of_steps() -> Vec<u8> {
+    b"NRRD0001\ndimension: 3\nsizes: 4 3 5\nspacings: 0.5 nan 2\ntype: uchar\nencoding: raw\n\n"
+        .to_vec()
+}
+
 /// A NIfTI-1 header with samples of this type, from 352 on, halved and less 1.
 pub(crate) fn nifti(kind: i16, short: fn(i16) -> [u8; 2], float: fn(f32) -> [u8; 4]) -> Vec<u8> {
     let mut bytes = vec![0; 352];
@@ -60,7 +66,7 @@ pub(crate) fn nifti(kind: i16, short: fn(i16) -> [u8; 2], float: fn(f32) -> [u8;
         put(40 + 2 * i, &short(n));
     }
     put(70, &short(kind));
-    for (i, step) in [0.5, 1.0, 2.0].into_iter().enumerate() {
+    for (i, step) in [-0.5, 1.0, 2.0].into_iter().enumerate() {
         put(80 + 4 * i, &float(step));
     }
     put(108, &float(352.0));
@@ -108,6 +114,7 @@ pub(crate) fn all() -> Vec<(&'static str, Vec<u8>)> {
         ("text.mha", [meta(&format!("BinaryData = False\n{short}"), "LOCAL"), text()].concat()),
         ("raw.nrrd", [nrrd("type: short\nencoding: raw\nendian: big"), big].concat()),
         ("gzip.nrrd", [nrrd("type: uint8\nencoding: gzip"), gzip(&bytes)].concat()),
+        ("steps.nrrd", [nrrd_of_steps(), bytes.clone()].concat()),
         ("ascii.nrrd", [nrrd("type: double\nencoding: ascii"), text()].concat()),
         ("beside.nhdr", nrrd("type: float\nencoding: gz\nendian: little\ndata file: beside.gz")),
         ("beside.gz", gzip(&float)),
