@@ -84,7 +84,8 @@ proptest! {
 
     #[test]
     fn the_quadric_in_the_tetrahedron_is_the_quadrilateral(
-        quad in quadrilateral(), u in 0.0..1.0f64, v in 0.0..1.0f64, through in [0.05..1.0f64, 0.05..1.0, 0.05..1.0, 0.05..1.0],
+        quad in quadrilateral(), u in 0.0..1.0f64, v in 0.0..1.0f64,
+        through in [0.05..1.0f64, 0.05..1.0, 0.05..1.0, 0.05..1.0],
         direction in point(),
     ) {
         prop_assume!(volume(&quad) > 1e-2 && direction.length() > 0.1);

@@ -340,3 +340,33 @@ fn thirty_atoms_are_one_closed_surface() {
     }
     assert!(rays > 200, "{rays}");
 }
+
+/// On a grid but for a little, which may be as little as what weights are changed by.
+#[test]
+fn atoms_that_are_nearly_on_a_sphere_or_in_a_plane_are_closed() {
+    let mut random = Random(77);
+    let mut rays = 0;
+    for case in 0..120 {
+        let jitter = 10f64.powi(-3 - case % 12);
+        let mut axis = || (3.0 * random.next()).floor();
+        let places: Vec<_> =
+            (0..4 + case % 12).map(|_| DVec3::new(axis(), axis(), axis())).collect();
+        let atoms: Vec<_> = places
+            .into_iter()
+            .map(|place| Atom {
+                centre: place + jitter * random.direction(),
+                radius: 0.4 * (1.0 + (2.0 * random.next()).floor()),
+            })
+            .collect();
+        let patches = Skin::default().patches(&atoms).unwrap();
+        for _ in 0..20 {
+            let direction = random.direction();
+            let origin = DVec3::from([0; 3].map(|_| 2.6 * random.next() - 0.3)) - 10.0 * direction;
+            if let Some(is_closed) = alternates(&patches, origin, direction) {
+                assert!(is_closed, "{origin} {direction} at {atoms:?}");
+                rays += 1;
+            }
+        }
+    }
+    assert!(rays > 1500, "{rays}");
+}

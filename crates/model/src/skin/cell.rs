@@ -15,7 +15,7 @@ pub enum Kind {
     Sphere,
     /// A hyperboloid of one sheet, or a cone: a neck between two atoms, or the inside of a ring of three.
     OneSheet,
-    /// A hyperboloid of two sheets: between two atoms that do not touch, or three that do.
+    /// A hyperboloid of two sheets: between two atoms that are apart, or above and below three that are not.
     TwoSheets,
     /// A sphere that is seen from its inside: a pocket between four atoms.
     Pocket,

@@ -36,10 +36,14 @@ struct Side {
     offset: f64,
 }
 
-/// How far weights are changed, in units of the greatest.
+/// How far weights are changed at first, in units of the greatest.
 const CHANGE: f64 = 1.0 / (1u64 << 30) as f64;
-/// How often other changes are tried.
-const TRIES: u64 = 8;
+/// How often changes are tried, each four times as great: to 2^-16. What is ambiguous to a small change are
+/// spheres that are in a plane but for about as much, since that much is divided by.
+const TRIES: i32 = 8;
+/// How far a point may be from the sides that it is on, in units of its size: far more than rounding leaves
+/// where there is a point.
+const RESIDUE: f64 = 1e-9;
 
 impl Diagram {
     /// The diagram in a box around 0 with the given upper corner. The weights are changed as it needs;
@@ -48,8 +52,9 @@ impl Diagram {
         let weights: Vec<_> = spheres.iter().map(|sphere| sphere.weight).collect();
         let greatest = weights.iter().copied().fold(0.0, f64::max);
         (0..TRIES).find_map(|attempt| {
+            let change = CHANGE * 4f64.powi(attempt) * greatest;
             for (i, (sphere, weight)) in spheres.iter_mut().zip(&weights).enumerate() {
-                sphere.weight = weight + CHANGE * greatest * spread(i as u64 + (attempt << 32));
+                sphere.weight = weight + change * spread(i as u64);
             }
             let vertices = vertices(&sides(spheres, walls), spheres.len());
             is_closed(&vertices, spheres.len()).then_some(Self { vertices, spheres: spheres.len() })
@@ -125,7 +130,9 @@ fn meet(sides: [Side; 4]) -> Option<DVec4> {
     let point = inverse * offsets;
     // Once more for what rounding left over.
     let point = point + inverse * (offsets - rows * point);
-    point.is_finite().then_some(point)
+    // Sides that are nearly parallel leave nothing but rounding.
+    let size = 1.0 + point.abs().max_element();
+    ((rows * point - offsets).abs().max_element() < RESIDUE * size).then_some(point)
 }
 
 /// Do the vertices bound something? Then each edge, three sides with a sphere, has two ends; if rounding has

@@ -45,11 +45,13 @@
 //! The power diagram is cut with a box, wide enough that its mixed cells hold the whole skin; then all of its
 //! faces are bounded, whether atoms span space or lie in a plane, on a line or alone. Weights are changed by
 //! up to 2^-30 of the greatest, always alike, so that no five spheres have a common power anywhere, and each
-//! vertex belongs to four. A mixed cell is a product of a face and a simplex, its corners are pairs of a
-//! vertex and an atom, and it is split by pulling its least pair: neighbours then split their common faces
-//! alike. Corners lie on a lattice of 2^-26 of the molecule's size, so that sums with the origins of patches
-//! are exact. That moves faces, but not the skin: f has one value and one gradient on both sides of a face,
-//! so beside it the two quadrics differ by the square of the distance, 2^-52.
+//! vertex belongs to four; where rounding leaves that in doubt, by more, up to 2^-16.
+//!
+//! A mixed cell is a product of a face and a simplex, its corners are pairs of a vertex and an atom, and it
+//! is split by pulling its least pair: neighbours then split their common faces alike. Corners lie on a
+//! lattice of 2^-26 of the molecule's size, so that sums with the origins of patches are exact. That moves
+//! faces, but not the skin: f has one value and one gradient on both sides of a face, so beside it the two
+//! quadrics differ by the square of the distance, 2^-52.
 
 mod cell;
 mod diagram;
@@ -104,7 +106,8 @@ impl Skin {
     ///
     /// # Errors
     /// If there are no atoms or more than 100, a number is not finite, a radius is not above 0, or the shrink
-    /// factor is not between 0 and 1.
+    /// factor is not between 0 and 1; or if the power diagram stays in doubt, which takes many atoms that
+    /// are on a grid but for a millionth.
     pub fn cells(&self, atoms: &[Atom]) -> Result<Vec<MixedCell>, Error> {
         Ok(self.complex(atoms)?.0)
     }
@@ -133,8 +136,9 @@ impl Skin {
             })
             .collect();
         let walls = walls(&spheres, s);
-        let diagram = Diagram::new(&mut spheres, walls)
-            .ok_or_else(|| Error::Patches("atoms whose power diagram is ambiguous".into()))?;
+        let diagram = Diagram::new(&mut spheres, walls).ok_or_else(|| {
+            Error::Patches("atoms so nearly on a sphere or in a plane that rounding decides".into())
+        })?;
         let recipe = Recipe { shrink: s, spheres: &spheres, diagram: &diagram, lattice: &lattice };
         let cells = diagram.faces().into_iter().map(|(sigma, nu)| recipe.make(sigma, &nu));
         Ok((cells.collect(), lattice))
@@ -159,8 +163,8 @@ impl Skin {
 
 /// The upper corner of a box around 0 whose mixed cells hold the skin.
 ///
-/// No shrunk sphere is larger than the largest atom, so |x_k| <= e_k + r with e the extent of the centres. Then
-/// p = (x - (1-s) y)/s, with y among the centres. The box is a little larger, by a different factor in each
+/// No shrunk sphere is larger than the largest atom, so |x_k| <= e_k + r with e the extent of the centres.
+/// Then p = (x - (1-s) y)/s, with y among the centres. The box is a little larger, by a different factor in each
 /// direction so that its edges avoid the planes of symmetric molecules.
 fn walls(spheres: &[Sphere], s: f64) -> DVec3 {
     let extent = spheres.iter().map(|sphere| sphere.centre.abs()).fold(DVec3::ZERO, DVec3::max);

@@ -96,6 +96,9 @@ mod tests {
         assert!((angle(&ethanol, [0, 1, 2]) - 107.8).abs() < 1e-9);
         assert!((angle(&ethanol, [1, 2, 3]) - 105.4).abs() < 1e-9);
         assert!((angle(&ethanol, [4, 0, 1]) - 110.5).abs() < 1e-9);
+        for hydrogens in [[4, 0, 5], [5, 0, 6], [6, 0, 4]] {
+            assert!((angle(&ethanol, hydrogens) - 108.42).abs() < 0.01);
+        }
         // The two hydrogens of CH2 are away from each other and from the methyl group.
         assert!((angle(&ethanol, [7, 1, 8]) - 109.0).abs() < 1.0);
         assert!((angle(&ethanol, [7, 1, 0]) - 110.0).abs() < 1.0);
