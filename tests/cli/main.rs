@@ -3,6 +3,7 @@
 mod animation;
 mod devices;
 mod pictures;
+mod pieces;
 mod rays;
 mod refusals;
 mod shadows;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use zeroset_ia::{BigInterval, Enclosure, Interval, Set, Unary};
-use zeroset_raycast::{Bound, HalfSpace, Patch, Ray, Sides};
+use zeroset_raycast::{Bound, Domain, HalfSpace, Patch, Ray, Sides};
 
 use crate::equation::Equation;
 
@@ -115,8 +115,11 @@ fn solve<N: Bits>(zero: &N, patch: &Patch, sides: Sides, ray: Ray, range: [f64; 
                 let (place, square) = place(zero, patch, &x);
                 (place, square, (zero.of(start) + t).ends(), true)
             }
-            // Anywhere.
-            None => (Known::Maybe, [0.0, 1.0], range, false),
+            // Anywhere in the bound.
+            None => match within(patch, ray, range) {
+                Some(t) => (Known::Maybe, [0.0, 1.0], t, false),
+                None => continue,
+            },
         };
         let in_range = match t {
             [lo, hi] if hi < range[0] || range[1] < lo => Known::No,
@@ -133,6 +136,16 @@ fn solve<N: Bits>(zero: &N, patch: &Patch, sides: Sides, ray: Ray, range: [f64; 
         }
     }
     found
+}
+
+/// The range of t in which the ray may be in the patch's bound.
+fn within(patch: &Patch, ray: Ray, range: [f64; 2]) -> Option<[f64; 2]> {
+    let [min, max] = patch.bound.corners().map(|corner| patch.origin + corner);
+    // The sums, and the corners of a ball's box, were rounded.
+    let (reach, size) = (min.abs().max(max.abs()), (max - min).max_element());
+    let margin = 4.0 * f64::EPSILON * (reach + size + patch.origin.abs());
+    let domain = Domain { min: min - margin, max: max + margin, ball: None };
+    domain.clip(ray, range).map(|clip| clip.outer)
 }
 
 fn dot<N: Enclosure>(a: &[N; 3], b: &[N; 3]) -> N {
@@ -280,7 +293,8 @@ mod tests {
         let patch = Patch { quadric: plane, ..sphere(1.0) };
         let ray = Ray::new(Vec3::new(-3.0, 0.0, 0.0), Vec3::X);
         let (found, _) = roots(&patch, Sides::Both, ray, ALL);
-        assert!(found.iter().all(|root| !root.is_sure) && !found.is_empty());
+        let [root] = found[..] else { panic!("{found:?}") };
+        assert!(!root.is_sure && (root.t[0] - 2.0).abs() < 1e-9 && (root.t[1] - 4.0).abs() < 1e-9);
         let above = Ray::new(Vec3::new(-3.0, 0.0, 0.1), Vec3::X);
         assert_eq!(roots(&patch, Sides::Both, above, ALL).0, []);
         let across = Ray::new(Vec3::new(0.2, 0.0, 1.0), Vec3::NEG_Z);
