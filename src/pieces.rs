@@ -56,7 +56,7 @@ pub(crate) fn scene(text: &str) -> Result<Option<Scene>, Failure> {
     }
     let path = Path::new(text);
     let patches = if has_extension(path, "slim") {
-        Slim::read(path).map_err(Failure::work)?.patches()?
+        Slim::read(path).map_err(Failure::work)?.patches()
     } else if has_extension(path, "tets") {
         // Where a volume ends, the surface is seen from inside.
         Tets::read(path).map_err(Failure::work)?.patches(Sides::Both)?

@@ -1,11 +1,11 @@
 //! `zeroset slim`: surfaces of balls from points.
 
 use std::path::PathBuf;
-use std::time::Instant;
 
 use clap::{Args, Subcommand};
-use zeroset::model::points;
-use zeroset::model::slim::{self, Summary};
+use zeroset::model::points::Cloud;
+use zeroset::model::slim::{self, Edges, Summary};
+use zeroset::shade;
 
 use crate::destination::has_extension;
 use crate::failure::Failure;
@@ -42,6 +42,10 @@ struct Build {
     /// The error of a ball's quadric at most, in diagonals of the points' box
     #[arg(long, value_name = "E", value_parser = numbers::positive, default_value = "1e-4")]
     error: f64,
+    /// Where normals fall in two clusters, two surfaces meet at a sharp edge, each cut by a plane; else edges
+    /// are rounded
+    #[arg(long)]
+    edges: bool,
     /// The file to write [default: the name of the points with .slim, in out/]
     #[arg(long, value_name = "FILE.slim")]
     out: Option<PathBuf>,
@@ -65,21 +69,28 @@ impl Build {
             let why = format!("--out {} does not end in .slim", out.display());
             return Err(Failure::usage(why));
         }
-        let (cloud, dropped) = points::read(&self.file).map_err(Failure::work)?;
+        let (cloud, dropped) = Cloud::read(&self.file).map_err(Failure::work)?;
         output::make_folder_of(&out)?;
         let progress = watch::interruptible()?;
-        let options = slim::Options { error: self.error, ..slim::Options::default() };
-        let start = Instant::now();
+        let edges = if self.edges { Edges::Clip } else { Edges::Ignore };
+        let options = slim::Options { error: self.error, edges, ..slim::Options::default() };
         let built = Bar::new().follow("balls", cloud.points.len(), &progress, || {
-            slim::Slim::build(&cloud, &options, &progress)
+            slim::build(&cloud, &options, &progress)
+        });
+        let (surface, summary) = built.map_err(|error| match error {
+            slim::Error::Interrupted => Failure::Interrupted,
+            error => Failure::work(error),
         })?;
-        let time = milliseconds(start.elapsed());
-        built.write(&out).map_err(Failure::work)?;
-        let Summary { rms, worst, overlap } = built.summary(&cloud);
+        shade::write_atomically(&out, &surface.to_bytes()).map_err(Failure::work)?;
+        let Summary { rms, max, overlap, time, .. } = summary;
         let facts = [
-            format!("{} points ({dropped})", cloud.points.len()),
-            format!("{} balls in {} ms, {overlap:.2} at a point", built.balls.len(), short(time)),
-            format!("distances of the points: RMS {rms:.1e}, worst {worst:.1e} of the diagonal"),
+            format!("{} points; {dropped}", cloud.points.len()),
+            format!(
+                "{} balls in {} ms, {overlap:.2} at a point",
+                surface.balls().len(),
+                short(milliseconds(time))
+            ),
+            format!("distances of the points: RMS {rms:.1e}, worst {max:.1e} of the diagonal"),
             out.display().to_string(),
         ];
         output::print(format!("{}\n", facts.join("\n")).as_bytes())

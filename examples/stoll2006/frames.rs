@@ -4,8 +4,8 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use glam::{DMat3, DVec3};
-use zeroset::model::points;
-use zeroset::model::slim::{Options, Slim};
+use zeroset::model::points::Cloud;
+use zeroset::model::slim::{self, Options};
 use zeroset::model::spline;
 use zeroset::model::volume::Volume;
 use zeroset::quadric::{Culling, Quadrics, QuadricsGpu, is_hidden};
@@ -108,9 +108,9 @@ pub(crate) fn models(files: &[String]) -> Result<(), Failure> {
     println!("|---|---|---|---|---|---|---|---|---|");
     for file in files {
         let path = Path::new(file);
-        let (cloud, _) = points::read(path)?;
-        let slim = Slim::build(&cloud, &Options::default(), &Progress::new())?;
-        let scene = Scene::of_patches("model", slim.patches()?);
+        let (cloud, _) = Cloud::read(path)?;
+        let (slim, _) = slim::build(&cloud, &Options::default(), &Progress::new())?;
+        let scene = Scene::of_patches("model", slim.patches());
         let name = path.file_name().unwrap_or_default().display().to_string();
         table_rows(&name, &scene)?;
     }

@@ -1,30 +1,49 @@
-//! SLIM surfaces of files of points: `cargo run --release -p zeroset-model --example slim -- FILE..`.
+//! Builds a SLIM surface from a file of points:
+//! `cargo run --release -p zeroset-model --example slim -- FILE [--error 1e-4] [--out F]`.
 
-use std::error::Error;
 use std::path::Path;
+use std::process::ExitCode;
 use std::time::Instant;
 
-use zeroset_model::points;
-use zeroset_model::slim::{Options, Slim, Summary};
+use zeroset_model::points::Cloud;
+use zeroset_model::slim::{Edges, Options, build};
 use zeroset_raycast::Progress;
 
-fn main() -> Result<(), Box<dyn Error>> {
-    println!("| file | points | left out | balls | seconds | RMS | worst | balls at a point |");
-    println!("|---|---|---|---|---|---|---|---|");
-    for file in std::env::args().skip(1) {
-        let path = Path::new(&file);
-        let (cloud, dropped) = points::read(path)?;
-        let start = Instant::now();
-        let slim = Slim::build(&cloud, &Options::default(), &Progress::new())?;
-        let seconds = start.elapsed().as_secs_f64();
-        let Summary { rms, worst, overlap } = slim.summary(&cloud);
-        let name = path.file_name().unwrap_or_default().display();
-        let left_out = dropped.not_finite + dropped.no_normal + dropped.repeated;
-        println!(
-            "| {name} | {} | {left_out} | {} | {seconds:.1} | {rms:.1e} | {worst:.1e} | {overlap:.2} |",
-            cloud.points.len(),
-            slim.balls.len()
-        );
+const USAGE: &str = "usage: slim FILE [--error 1e-4] [--seed 0] [--cover 0.82] [--edges ignore|clip] [--out FILE.slim]";
+
+fn main() -> ExitCode {
+    match run(std::env::args().skip(1)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(e) => {
+            eprintln!("{e}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(mut words: impl Iterator<Item = String>) -> Result<(), Box<dyn std::error::Error>> {
+    let file = words.next().ok_or(USAGE)?;
+    let mut options = Options::default();
+    let mut out = None;
+    while let Some(word) = words.next() {
+        let value = words.next().ok_or(USAGE)?;
+        match (word.as_str(), value.as_str()) {
+            ("--error", _) => options.error = value.parse()?,
+            ("--seed", _) => options.seed = value.parse()?,
+            ("--cover", _) => options.cover = value.parse()?,
+            ("--edges", "ignore") => options.edges = Edges::Ignore,
+            ("--edges", "clip") => options.edges = Edges::Clip,
+            ("--out", _) => out = Some(value),
+            _ => return Err(USAGE.into()),
+        }
+    }
+    let start = Instant::now();
+    let (cloud, dropped) = Cloud::read(Path::new(&file))?;
+    println!("{file}: {dropped}; read in {:.2} s", start.elapsed().as_secs_f64());
+    let (slim, summary) = build(&cloud, &options, &Progress::new())?;
+    println!("{summary}");
+    if let Some(out) = out {
+        slim.write(Path::new(&out))?;
     }
     Ok(())
 }

@@ -1,34 +1,80 @@
-//! Which points are near.
+//! Neighbours of a place among points.
 
 use glam::DVec3;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
-/// Points by their place.
+/// Points in a tree. It holds any finite points: coincident ones, and ones equal in a coordinate, too.
+#[derive(Debug)]
 pub(crate) struct Neighbours(RTree<GeomWithData<[f64; 3], u32>>);
 
+/// A point near a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Neighbour {
+    /// Which point.
+    pub(crate) index: u32,
+    /// The square of its distance.
+    pub(crate) square: f64,
+}
+
 impl Neighbours {
-    /// Of these points, each known by its index.
+    /// A tree of finite points, fewer than 2^32.
     pub(crate) fn new(points: &[DVec3]) -> Self {
-        let indexed = points.iter().zip(0..).map(|(p, i)| GeomWithData::new(p.to_array(), i));
-        Self(RTree::bulk_load(indexed.collect()))
+        let leaf = |(i, p): (usize, &DVec3)| GeomWithData::new(p.to_array(), i as u32);
+        Self(RTree::bulk_load(points.iter().enumerate().map(leaf).collect()))
     }
 
-    /// The distance of the n-th nearest from a place, or of the farthest if there are not so many.
-    pub(crate) fn distance(&self, place: DVec3, n: usize) -> f64 {
-        let place = place.to_array();
-        let square = self.0.nearest_neighbor_iter_with_distance_2(&place).take(n).last();
-        square.map_or(0.0, |(_, square)| square.sqrt())
+    /// Sets `found` to the points no further than `radius`, in an order that is the tree's own.
+    pub(crate) fn within(&self, place: DVec3, radius: f64, found: &mut Vec<Neighbour>) {
+        found.clear();
+        let near = self.0.locate_within_distance(place.to_array(), radius * radius);
+        found.extend(near.map(|leaf| Neighbour {
+            index: leaf.data,
+            square: (DVec3::from(*leaf.geom()) - place).length_squared(),
+        }));
     }
 
-    /// The n nearest to a place.
-    pub(crate) fn nearest(&self, place: DVec3, n: usize) -> impl Iterator<Item = usize> {
-        self.0.nearest_neighbor_iter(&place.to_array()).take(n).map(|p| p.data as usize)
+    /// The `k` nearest points, nearest first, or all of them if there are fewer.
+    pub(crate) fn nearest(&self, place: DVec3, k: usize) -> impl Iterator<Item = Neighbour> {
+        let near = self.0.nearest_neighbor_iter_with_distance_2(place.to_array());
+        near.take(k).map(|(leaf, square)| Neighbour { index: leaf.data, square })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points of a grid, each thrice, with whole planes equal in a coordinate.
+    fn grid() -> Vec<DVec3> {
+        let cells = (0..5000).map(|i| i % 1667);
+        cells.map(|i| DVec3::new(f64::from(i % 40), f64::from(i / 40), 0.0)).collect()
     }
 
-    /// Those within a distance of a place.
-    pub(crate) fn within(&self, place: DVec3, distance: f64) -> impl Iterator<Item = usize> {
-        let found = self.0.locate_within_distance(place.to_array(), distance * distance);
-        found.map(|p| p.data as usize)
+    #[test]
+    fn neighbours_are_those_of_a_search_through_all() {
+        let points = grid();
+        let tree = Neighbours::new(&points);
+        let mut found = Vec::new();
+        for place in [DVec3::ZERO, DVec3::new(20.0, 20.5, 0.25), DVec3::new(-3.0, 50.0, 1.0)] {
+            let square = |p: &DVec3| (p - place).length_squared();
+            tree.within(place, 12.5, &mut found);
+            let expected = points.iter().filter(|p| square(p) <= 12.5 * 12.5).count();
+            assert_eq!(found.len(), expected, "{place}");
+            assert!(found.iter().all(|n| square(&points[n.index as usize]) == n.square));
+            let mut squares: Vec<f64> = points.iter().map(square).collect();
+            squares.sort_by(f64::total_cmp);
+            let nearest: Vec<f64> = tree.nearest(place, 100).map(|n| n.square).collect();
+            assert_eq!(nearest, squares[..100], "{place}");
+        }
+    }
+
+    #[test]
+    fn coincident_points_are_all_found() {
+        let tree = Neighbours::new(&[DVec3::ONE; 300]);
+        assert_eq!(tree.nearest(DVec3::ZERO, 1000).count(), 300);
+        let mut found = Vec::new();
+        tree.within(DVec3::ONE, 0.0, &mut found);
+        assert_eq!(found.len(), 300);
     }
 }

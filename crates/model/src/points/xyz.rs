@@ -1,26 +1,29 @@
-//! Lines of `x y z` or `x y z nx ny nz`.
+//! XYZ: a point a line, with or without its normal.
 
-use glam::DVec3;
+use super::text::lines;
+use super::{Error, raw::Raw};
 
-use super::{Fault, Raw, lines, number};
-
-pub(super) fn read(bytes: &[u8]) -> Result<Raw, Fault> {
+/// Reads `x y z` or `x y z nx ny nz` a line, the same on all.
+pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Raw, Error> {
     let mut raw = Raw::default();
-    for (line, words) in lines(bytes) {
-        let fault = |why: &str| (format!("line {line}"), why.to_owned());
-        let numbers: Option<Vec<f64>> = words.iter().map(|word| number(word)).collect();
-        match numbers.as_deref() {
-            Some([]) => {}
-            Some([x, y, z]) if raw.normals.is_empty() => raw.points.push(DVec3::new(*x, *y, *z)),
-            Some([x, y, z, nx, ny, nz]) if raw.normals.len() == raw.points.len() => {
-                raw.points.push(DVec3::new(*x, *y, *z));
-                raw.normals.push(DVec3::new(*nx, *ny, *nz));
-            }
-            Some([_, _, _] | [_, _, _, _, _, _]) => {
-                return Err(fault("either all points have normals or none has"));
-            }
-            _ => return Err(fault("a point is x y z, or x y z nx ny nz")),
+    let mut normals = Vec::new();
+    let mut first = None;
+    for line in lines(file, bytes) {
+        let count = line.words().count();
+        if count != 3 && count != 6 {
+            let what = format!("{count} words where a point has 3 numbers, or 6 with its normal");
+            return Err(line.error(what, "delete other columns; comments start with #"));
+        }
+        if *first.get_or_insert(count) != count {
+            let what = format!("{count} numbers where lines before have {}", 9 - count);
+            return Err(line.error(what, "give all points a normal, or none"));
+        }
+        let mut words = line.words();
+        raw.points.push(line.vector(&mut words)?);
+        if count == 6 {
+            normals.push(line.vector(&mut words)?);
         }
     }
+    raw.normals = (!normals.is_empty()).then_some(normals);
     Ok(raw)
 }

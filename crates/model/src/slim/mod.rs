@@ -1,105 +1,93 @@
-//! SLIM surfaces: sparse low-degree implicits, balls with a quadric each, blended where they overlap
-//! (\[stoll2006\] Section 5.1.1).
+//! SLIM surfaces: balls, each with a quadric of its own, blended (\[stoll2006\] Section 5.1.1).
 //!
-//! | module | holds |
-//! |---|---|
-//! | `fit` | the quadric of one ball, and the largest ball whose quadric is near enough |
-//! | `cover` | balls until every point lies well within one |
-//! | `file` | the format `.slim` |
+//! [`build()`] makes one from a [`Cloud`](crate::points::Cloud) of points; [`Slim::write`] and
+//! [`Slim::read`] keep it in a file (`docs/slim-file.md`); [`Slim::patches`] hands it to the methods.
 
-mod cover;
+mod build;
+mod crease;
+mod error;
 mod file;
-mod fit;
+mod grow;
+mod patch;
+mod quadratic;
+mod samples;
+mod shuffle;
+mod summary;
 
 use glam::DVec3;
-use zeroset_raycast::{
-    Blending, Bound, Error, HalfSpace, Patch, Patches, Progress, Quadric, Sides,
-};
+use zeroset_raycast::{Blending, Bound, HalfSpace, Patch, Patches, Quadric, Sides};
 
-use crate::points::Cloud;
+pub use build::{Edges, Options, build};
+pub use error::Error;
+pub use summary::Summary;
 
-pub use file::FileError;
-
-/// How far, in radii of its ball, a hit may lie behind another of the same sheet. With 0.02 the balls are seen
-/// as scales, with 0.25 there are still jumps, and from here to 2 pictures are the same.
-const OFFSET: f64 = 0.5;
-
-/// How a surface is made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// The error of a ball's quadric, at most, in diagonals of the points' box: the weighted root mean square
-    /// of the distances of its points.
-    pub error: f64,
-    /// A point within so many radii of a ball's centre is covered by it.
-    pub cover: f64,
-    /// The order in which points become centres.
-    pub seed: u64,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { error: 1e-4, cover: 0.82, seed: 0 }
-    }
-}
-
-/// A ball with its quadric, which is about the centre.
+/// A ball with the surface in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
-    /// Its centre.
+    /// The centre, in space; what follows is given about it.
     pub centre: DVec3,
-    /// Its radius.
+    /// The radius.
     pub radius: f64,
-    /// f, about the centre; positive outside.
+    /// The surface, f > 0 outside. Built ones have f near the distance, in units of space.
     pub quadric: Quadric,
-    /// What is left of it where the surface has an edge, about the centre.
+    /// Where the surface ends at an edge, if it does.
     pub clip: Option<HalfSpace>,
 }
 
-/// Balls whose blended quadrics are a surface.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// A surface in balls.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Slim {
-    /// The balls.
-    pub balls: Vec<Ball>,
-}
-
-/// What came of a build.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Summary {
-    /// Root mean square of the points' distances from the blended surface, in diagonals.
-    pub rms: f64,
-    /// The greatest of them.
-    pub worst: f64,
-    /// Balls that a point lies in, on average.
-    pub overlap: f64,
+    balls: Vec<Ball>,
+    offset: f64,
 }
 
 impl Slim {
-    /// Balls for points, in parallel; the result does not depend on the threads. `progress` counts the points
-    /// that are covered.
+    /// How far behind the first hit others are blended, in radii of a hit's ball. From 0.5 to 2 pictures are
+    /// the same; below, scales show.
+    pub const OFFSET: f64 = 0.5;
+
+    /// A surface of these balls, blended as [`Blending::Weighted`] by `offset` says.
     ///
     /// # Errors
-    /// If the work was asked to stop.
-    pub fn build(cloud: &Cloud, options: &Options, progress: &Progress) -> Result<Self, Error> {
-        cover::balls(cloud, options, progress).map(|balls| Self { balls })
+    /// If there are none, a ball has a number that is not finite or a radius that is not above 0, or the
+    /// offset is negative.
+    pub fn new(balls: Vec<Ball>, offset: f64) -> Result<Self, Error> {
+        let slim = Self { balls, offset };
+        slim.checked().map_err(|e| Error::Balls(e.to_string()))?;
+        Ok(slim)
     }
 
-    /// The surface that the methods cast rays at.
-    ///
-    /// # Errors
-    /// If there are no balls, or they are not finite.
-    pub fn patches(&self) -> Result<Patches, Error> {
+    /// The balls.
+    pub fn balls(&self) -> &[Ball] {
+        &self.balls
+    }
+
+    /// The offset of blending, in radii.
+    pub fn offset(&self) -> f64 {
+        self.offset
+    }
+
+    /// What the methods cast: a patch a ball, about its centre, seen from the outside, blended.
+    pub fn patches(&self) -> Patches {
+        self.checked().expect("it was checked when it was made")
+    }
+
+    fn checked(&self) -> Result<Patches, zeroset_raycast::Error> {
         let patch = |ball: &Ball| Patch {
             origin: ball.centre,
             quadric: ball.quadric,
             bound: Bound::Ball { centre: DVec3::ZERO, radius: ball.radius },
             clip: ball.clip,
         };
-        let patches = self.balls.iter().map(patch).collect();
-        Patches::new(patches, Sides::Front, Blending::Weighted { offset: OFFSET })
+        let blending = Blending::Weighted { offset: self.offset };
+        Patches::new(self.balls.iter().map(patch).collect(), Sides::Front, blending)
     }
+}
 
-    /// How far the points are from the surface.
-    pub fn summary(&self, cloud: &Cloud) -> Summary {
-        cover::summary(&self.balls, cloud)
+impl Ball {
+    /// Does the surface count at a point given about the centre?
+    pub fn contains(&self, x: DVec3) -> bool {
+        let clip = self.clip.is_none_or(|h| h.normal.dot(x) <= h.offset);
+        clip && x.length_squared() <= self.radius * self.radius
     }
 }
