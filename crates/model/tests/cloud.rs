@@ -94,6 +94,14 @@ fn faces_at_duplicates_are_joined() {
 }
 
 #[test]
+fn faces_of_bad_points_count_for_nothing() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 1\nf 1 2 3\nf 1 2 4\n";
+    let (cloud, dropped) = parse("a.obj", text.as_bytes()).unwrap();
+    assert_eq!(dropped, Dropped { not_finite: 1, ..Dropped::default() });
+    assert_eq!(cloud.normals, [DVec3::Z; 3]);
+}
+
+#[test]
 fn messages_name_the_place() {
     let says = |name: &str, text: &str, place: Place, what: &str| {
         let error = refused(name, text.as_bytes());
