@@ -1,8 +1,10 @@
 //! Builds a SLIM surface from a file of points:
 //! `cargo run --release -p zeroset-model --example slim -- FILE [--error 1e-4] [--out F]`.
 
+use std::fmt::Display;
 use std::path::Path;
 use std::process::ExitCode;
+use std::str::FromStr;
 use std::time::Instant;
 
 use zeroset_model::points::Cloud;
@@ -28,9 +30,9 @@ fn run(mut words: impl Iterator<Item = String>) -> Result<(), Box<dyn std::error
     while let Some(word) = words.next() {
         let value = words.next().ok_or(USAGE)?;
         match (word.as_str(), value.as_str()) {
-            ("--error", _) => options.error = value.parse()?,
-            ("--seed", _) => options.seed = value.parse()?,
-            ("--cover", _) => options.cover = value.parse()?,
+            ("--error", _) => options.error = number(&word, &value)?,
+            ("--seed", _) => options.seed = number(&word, &value)?,
+            ("--cover", _) => options.cover = number(&word, &value)?,
             ("--edges", "ignore") => options.edges = Edges::Ignore,
             ("--edges", "clip") => options.edges = Edges::Clip,
             ("--out", _) => out = Some(value),
@@ -46,4 +48,8 @@ fn run(mut words: impl Iterator<Item = String>) -> Result<(), Box<dyn std::error
         slim.write(Path::new(&out))?;
     }
     Ok(())
+}
+
+fn number<T: FromStr<Err: Display>>(word: &str, value: &str) -> Result<T, String> {
+    value.parse().map_err(|e| format!("{word} cannot be {value:?}: {e}"))
 }

@@ -41,6 +41,9 @@ fn all_formats_say_the_same() {
         check_octahedron("a.ply", &ply(coding, Normals::Given));
         check_octahedron("a.PLY", &ply(coding, Normals::Absent));
     }
+    let text = String::from_utf8(ply(Coding::Ascii, Normals::Absent)).unwrap();
+    check_octahedron("a.ply", text.replace('\n', "\r\n").as_bytes());
+    check_octahedron("a.ply", text.replace("indices", "index").as_bytes());
     check_octahedron("a.obj", obj(Normals::Absent, |i| format!("{}", i + 1)).as_bytes());
     check_octahedron("a.obj", obj(Normals::Absent, |i| format!("{}/1", i + 1)).as_bytes());
     check_octahedron("a.obj", obj(Normals::Absent, |i| format!("{}", i as i32 - 6)).as_bytes());
@@ -94,6 +97,14 @@ fn faces_at_duplicates_are_joined() {
 }
 
 #[test]
+fn faces_of_bad_points_count_for_nothing() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 1\nf 1 2 3\nf 1 2 4\n";
+    let (cloud, dropped) = parse("a.obj", text.as_bytes()).unwrap();
+    assert_eq!(dropped, Dropped { not_finite: 1, ..Dropped::default() });
+    assert_eq!(cloud.normals, [DVec3::Z; 3]);
+}
+
+#[test]
 fn messages_name_the_place() {
     let says = |name: &str, text: &str, place: Place, what: &str| {
         let error = refused(name, text.as_bytes());
@@ -140,6 +151,8 @@ fn messages_name_the_place() {
     let compressed = gzipped(text.as_bytes());
     let error = refused("a.ply.gz", &compressed[..compressed.len() - 9]);
     assert!(matches!(error.place, Byte(_)) && error.what.contains("gzip"), "{error}");
+    let error = refused("a.xyz", &gzipped(&vec![b'0'; 1 << 25]));
+    assert!(error.what.contains("more than 16777216 bytes in"), "{error}");
     let error = Cloud::read(Path::new("nowhere/a.ply")).unwrap_err();
     assert!(error.to_string().contains("nowhere/a.ply: cannot be read"), "{error}");
     assert!(Cloud::new(corners(), Vec::new()).unwrap_err().what.contains("0 normals"));

@@ -177,6 +177,22 @@ fn concave_edges_are_clipped_on_their_own_sides() {
     assert!(slim.balls().iter().any(|ball| ball.clip.is_some()));
 }
 
+/// Two sheets closer than the error, and further apart than points: no ball takes both for one.
+#[test]
+fn sheets_stay_apart() {
+    let grid = (0..1600).map(|i| [i % 40, i / 40].map(f64::from));
+    let (points, normals) = grid
+        .flat_map(|[x, y]| [4.5, 0.0].map(|z| (DVec3::new(x, y, z), (z - 1.0) * DVec3::Z)))
+        .unzip();
+    let (cloud, _) = Cloud::new(points, normals).unwrap();
+    let (slim, summary) = built(&cloud, &Options { error: 0.05, ..Options::default() });
+    assert!(summary.rms < 1e-9, "{summary}");
+    for ball in slim.balls() {
+        let near = |p: &DVec3| ball.contains(*p - ball.centre);
+        assert!(cloud.points.iter().filter(|p| near(p)).all(|p| p.z == ball.centre.z));
+    }
+}
+
 #[test]
 fn poor_clouds_make_sound_surfaces() {
     let line = |count: u32| (0..count).map(|i| DVec3::new(f64::from(i), 0.0, 0.0));

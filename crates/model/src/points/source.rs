@@ -8,8 +8,11 @@ use flate2::read::MultiGzDecoder;
 
 use super::{Error, Place, obj, ply, raw::Raw, xyz};
 
-/// The most bytes that are read, in 32-bit indices with room to spare; a small gzip file can claim far more.
+/// The most bytes that are read: indices of 32 bits then have room to spare.
 const MOST: u64 = 1 << 31;
+/// A gzip file may claim a thousand times its size; numbers reach a tenth of that. Small files may have more.
+const RATIO: u64 = 100;
+const SMALL: u64 = 1 << 24;
 
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
@@ -71,7 +74,12 @@ impl Source {
 
 fn uncompressed(name: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     let mut out = Vec::new();
-    match MultiGzDecoder::new(bytes).take(MOST + 1).read_to_end(&mut out) {
+    let most = (RATIO * bytes.len() as u64).clamp(SMALL, MOST);
+    match MultiGzDecoder::new(bytes).take(most + 1).read_to_end(&mut out) {
+        Ok(length) if length as u64 > most => {
+            let what = format!("has more than {most} bytes in {} of gzip", bytes.len());
+            Err(Error::new(name, Place::Whole, what, "uncompress it if it is what it seems"))
+        }
         Ok(_) => Ok(out),
         Err(e) => {
             let what = format!("is broken as gzip after that byte: {e}");
