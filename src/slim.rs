@@ -63,7 +63,7 @@ impl Build {
     fn run(&self) -> Result<(), Failure> {
         let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
         let stem = stem.trim_end_matches(".ply").trim_end_matches(".obj").trim_end_matches(".xyz");
-        let default = || PathBuf::from("out").join(stem).with_extension("slim");
+        let default = || PathBuf::from("out").join(format!("{stem}.slim"));
         let out = self.out.clone().unwrap_or_else(default);
         if !has_extension(&out, "slim") {
             let why = format!("--out {} does not end in .slim", out.display());

@@ -67,8 +67,8 @@ impl VolumeCommand {
 impl Build {
     fn run(&self) -> Result<(), Failure> {
         let name = self.volume.replace(':', "-");
-        let stem = Path::new(&name).file_stem().unwrap_or_default();
-        let default = || Path::new("out").join(stem).with_extension("tets");
+        let stem = Path::new(&name).file_stem().unwrap_or_default().to_string_lossy();
+        let default = || Path::new("out").join(format!("{stem}.tets"));
         let out = self.out.clone().unwrap_or_else(default);
         if !has_extension(&out, "tets") {
             let why = format!("--out {} does not end in .tets", out.display());

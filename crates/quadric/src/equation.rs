@@ -46,7 +46,7 @@ impl<T: Float> Equation<T> {
 
     /// Eq. 7, and -gamma/(2 beta) where alpha is small: the paper's formula with faces turned away culled.
     pub fn roots_by_quotient(self) -> Roots<T> {
-        let Self { alpha, beta, gamma } = self;
+        let Self { alpha, beta, .. } = self;
         let square = self.discriminant();
         if !(square >= T::zero()) {
             return [None; 2];
@@ -55,7 +55,6 @@ impl<T: Float> Equation<T> {
             return self.linear();
         }
         let s = square.sqrt();
-        let _ = gamma;
         [(-beta - s) / alpha, (-beta + s) / alpha].map(finite)
     }
 

@@ -13,6 +13,8 @@ use zeroset_raycast::Ray;
 /// the ray meets is never left out.
 pub(crate) struct Hierarchy {
     bvh: Bvh2,
+    /// What its numbers are times, a power of two: the library's areas are in single precision.
+    unit: f64,
 }
 
 /// 8 units of 2^-53: a quotient of a difference has three roundings, and the ends one more.
@@ -21,10 +23,16 @@ const SLACK: f64 = 8.0 * 0.5 * f64::EPSILON;
 impl Hierarchy {
     /// Over boxes, each a least and a greatest corner.
     pub(crate) fn new(boxes: impl Iterator<Item = [DVec3; 2]>) -> Self {
-        let boxes: Vec<Aabb> =
-            boxes.map(|[min, max]| Aabb { min: below(min), max: above(max) }).collect();
+        let boxes: Vec<[DVec3; 2]> = boxes.collect();
+        let reach = |[min, max]: &[DVec3; 2]| min.abs().max(max.abs()).max_element();
+        let largest = boxes.iter().map(reach).fold(f64::MIN_POSITIVE, f64::max);
+        let unit = largest.log2().round().clamp(-900.0, 1000.0).exp2();
+        let boxes: Vec<Aabb> = boxes
+            .iter()
+            .map(|[min, max]| Aabb { min: below(*min / unit), max: above(*max / unit) })
+            .collect();
         let mut time = std::time::Duration::ZERO;
-        Self { bvh: build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut time) }
+        Self { unit, bvh: build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut time) }
     }
 
     /// Shows the index of every box that the ray may meet at some t in the closed range [from, to], those in
@@ -35,7 +43,7 @@ impl Hierarchy {
         [from, mut to]: [f64; 2],
         mut see: impl FnMut(usize) -> f64,
     ) {
-        let line = Line::new(ray);
+        let line = Line::new(ray, self.unit);
         let nodes = &self.bvh.nodes;
         let enter =
             |node: usize| line.enter(&nodes[node].aabb().min, &nodes[node].aabb().max, from);
@@ -85,8 +93,9 @@ struct Line {
 }
 
 impl Line {
-    fn new(ray: Ray) -> Self {
-        let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+    /// In a unit of length that is a power of two, and so changes no digit.
+    fn new(ray: Ray, unit: f64) -> Self {
+        let (origin, direction) = (ray.origin.as_dvec3() / unit, ray.direction.as_dvec3() / unit);
         Self { origin, direction, inverse: direction.recip() }
     }
 

@@ -36,7 +36,7 @@ pub enum Precision {
 pub struct Quadrics {
     /// Which of them.
     pub staging: Staging,
-    /// Default: local; `quadric-brute` takes the paper's quotient.
+    /// Default: local.
     pub formula: Formula,
     /// Default: double.
     pub precision: Precision,

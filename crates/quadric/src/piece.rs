@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 use num_traits::Float;
-use zeroset_raycast::{Bound, HalfSpace, Patch, Ray};
+use zeroset_raycast::{Bound, HalfSpace, Patch, Quadric, Ray};
 
 use crate::equation::{Equation, Roots};
 
@@ -86,7 +86,10 @@ impl<T: Float> Piece<T> {
             Formula::Local => (patch.origin, DVec3::ZERO),
             Formula::Quotient | Formula::Reciprocal => (DVec3::ZERO, patch.origin),
         };
-        let quadric = patch.quadric.about(-shift);
+        let quadric = match formula {
+            Formula::Local => balanced(&patch.quadric, size),
+            Formula::Quotient | Formula::Reciprocal => patch.quadric.about(-shift),
+        };
         let margin = MARGIN * T::epsilon().to_f64().unwrap_or(0.0) * (size + shift.length());
         let cut = |plane: HalfSpace| {
             let length = plane.normal.length();
@@ -117,7 +120,9 @@ impl<T: Float> Piece<T> {
 
     /// Where a ray enters the inside within the bound, and where it leaves it.
     pub(crate) fn crossings(&self, ray: Ray) -> [Option<Crossing>; 2] {
-        let direction = ray.direction.as_dvec3();
+        // Along a unit direction squares neither overflow nor vanish.
+        let speed = ray.direction.as_dvec3().length();
+        let direction = ray.direction.as_dvec3() / speed;
         let eye = ray.origin.as_dvec3() - self.origin;
         // t of the point that the equation is about.
         let start = match self.formula {
@@ -142,7 +147,11 @@ impl<T: Float> Piece<T> {
             let distance = self.place(x)?;
             let half = along(along(along_point, T::one(), self.b), t, along_d);
             let gradient = DVec3::from(half.map(|g| g.to_f64().unwrap_or(f64::NAN)));
-            Some(Crossing { t: start + t.to_f64()?, gradient, distance: distance.to_f64()? })
+            Some(Crossing {
+                t: (start + t.to_f64()?) / speed,
+                gradient,
+                distance: distance.to_f64()?,
+            })
         })
     }
 
@@ -157,10 +166,22 @@ impl<T: Float> Piece<T> {
             return None;
         }
         let Some(Ball { centre, radius }) = self.ball else { return Some(T::zero()) };
-        let away = along(x, -T::one(), centre);
-        let distance = dot(away, away).sqrt() / radius;
+        // In radii: squares of lengths may be out of range.
+        let away = along(x, -T::one(), centre).map(|x| x / radius);
+        let distance = dot(away, away).sqrt();
         (distance <= T::one()).then_some(distance)
     }
+}
+
+/// The quadric times a power of two, so that its terms in a bound of that size are about as large as the size:
+/// f and 1000 f have the same zeros in single precision, too.
+pub(crate) fn balanced(quadric: &Quadric, size: f64) -> Quadric {
+    let of = |m: DMat3| m.to_cols_array().into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let Quadric { a, b, c } = quadric;
+    let largest = (of(*a) * size).max(b.abs().max_element()).max(c.abs() / size);
+    // A power of two changes no digit.
+    let scale = largest.log2().round().clamp(-900.0, 900.0).exp2().recip();
+    if largest > 0.0 { quadric.scaled(scale) } else { *quadric }
 }
 
 /// The half-spaces whose common part is the tetrahedron.
@@ -178,7 +199,6 @@ pub(crate) fn faces(corners: [DVec3; 4]) -> [HalfSpace; 4] {
 mod tests {
     use super::*;
     use glam::Vec3;
-    use zeroset_raycast::Quadric;
     use zeroset_raycast::quadric::Coefficients;
 
     fn sphere(origin: DVec3, bound: Bound) -> Patch {
@@ -199,7 +219,10 @@ mod tests {
             let (enters, leaves) = (enters.unwrap(), leaves.unwrap());
             for (crossing, t, normal) in [(enters, 8.0, DVec3::NEG_X), (leaves, 12.0, DVec3::X)] {
                 assert!((crossing.t - t).abs() < 1e-13, "{formula:?}: {crossing:?}");
-                assert!((crossing.gradient - normal).length() < 1e-13, "{formula:?}: {crossing:?}");
+                assert!(
+                    (crossing.gradient.normalize() - normal).length() < 1e-13,
+                    "{formula:?}: {crossing:?}"
+                );
                 assert!((crossing.distance - 0.5).abs() < 1e-13, "{formula:?}: {crossing:?}");
             }
             let away = Ray::new(Vec3::Y * 4.0, Vec3::X);
@@ -232,6 +255,26 @@ mod tests {
             assert_eq!(found(&clipped, along_x), [true, false], "{formula:?}");
             assert_eq!(found(&sphere(origin, ball), along_x), [true, true], "{formula:?}");
         }
+    }
+
+    #[test]
+    fn f_times_any_factor_has_the_same_zeros() {
+        let ball = Bound::Ball { centre: DVec3::ZERO, radius: 2.0 };
+        let patch = sphere(DVec3::ZERO, ball);
+        let ray = Ray::new(Vec3::new(0.25, 0.5, -3.0), Vec3::new(0.0, 0.1, 0.9));
+        let of = |factor: f64| {
+            let patch = Patch { quadric: patch.quadric.scaled(factor), ..patch };
+            Piece::<f32>::new(&patch, Formula::Local).crossings(ray).map(|c| c.map(|c| c.t))
+        };
+        for power in [-40, -20, 1, 20, 40] {
+            assert_eq!(of(4.0_f64.powi(power)), of(1.0), "{power}");
+        }
+        let slow = Ray::new(ray.origin, 1e-30 * ray.direction);
+        let [Some(enters), _] = Piece::<f32>::new(&patch, Formula::Local).crossings(slow) else {
+            panic!("it is hit")
+        };
+        let t = of(1.0)[0].unwrap();
+        assert!((1e-30 * enters.t - t).abs() < 1e-5, "{} {t}", enters.t);
     }
 
     #[test]

@@ -42,7 +42,10 @@ impl PreparedQuadrics {
 
     /// Which patches are left out.
     fn hidden(&self, rays: Rays<'_>) -> Hidden {
-        if self.method.staging == Staging::Brute || self.patches.sides() == Sides::Both {
+        // Behind the eye it is the outside that is turned away.
+        let has_behind = rays.range()[0] < 0.0;
+        let is_brute = self.method.staging == Staging::Brute;
+        if has_behind || is_brute || self.patches.sides() == Sides::Both {
             return Hidden::None;
         }
         let eye = match rays {
@@ -59,6 +62,15 @@ impl PreparedQuadrics {
             Hidden::None => false,
             Hidden::OfOne(hidden) => hidden[index],
             Hidden::OfEach => culling::is_hidden(&self.patches.all()[index], ray.origin.as_dvec3()),
+        }
+    }
+
+    /// The normal of a ray's hit, if it has one.
+    pub(crate) fn normal(&self, ray: Ray, range: [f64; 2]) -> Vec3 {
+        let request = Request::FirstWithNormal;
+        match &self.pieces {
+            Pieces::Single(pieces) => self.answer(pieces, &Hidden::None, request, ray, range).1,
+            Pieces::Double(pieces) => self.answer(pieces, &Hidden::None, request, ray, range).1,
         }
     }
 
@@ -116,9 +128,9 @@ fn pieces<T: Float>(method: &Quadrics, patches: &Patches) -> Vec<Piece<T>> {
 /// Over the boxes of the patches' bounds.
 pub(crate) fn hierarchy(patches: &Patches) -> Hierarchy {
     Hierarchy::new(patches.all().iter().map(|patch| {
-        let [min, max] = patch.bound.corners().map(|corner| patch.origin + corner);
-        // Roots count a little beyond a bound, and the sum was rounded.
-        let margin = 1e-5 * (max - min).max_element() + 1e-15 * min.abs().max(max.abs());
+        let [min, max] = patch.corners();
+        // Roots count a little beyond a bound.
+        let margin = 1e-5 * (max - min).max_element();
         [min - margin, max + margin]
     }))
 }
@@ -145,8 +157,10 @@ impl<'a> Found<'a> {
 
     /// Where there is nothing more to find.
     fn end(&self) -> f64 {
-        let is_done =
-            self.request == Request::Any && (self.nearest.is_some() || !self.fragments.is_empty());
+        // A fragment at the end of its ball has no weight.
+        let has_weight = |f: &Fragment| f.crossing.distance < 1.0;
+        let has_found = self.nearest.is_some() || self.fragments.iter().any(has_weight);
+        let is_done = self.request == Request::Any && has_found;
         if is_done { f64::NEG_INFINITY } else { self.end }
     }
 

@@ -10,8 +10,8 @@ use scenes::{balls, cubes, sphere};
 use zeroset_gpu::device::Format;
 use zeroset_quadric::{Culling, Formula, Quadrics, QuadricsGpu};
 use zeroset_raycast::{
-    Blending, Camera, Hits, Method, Progress, Projection, Quadric, Rays, Request, Scene, Sides,
-    View,
+    Blending, Camera, Hits, Method, Patches, Progress, Projection, Quadric, Rays, Request, Scene,
+    Sides, View,
 };
 
 fn ask(method: &dyn Method, scene: &Scene, view: &View) -> Hits {
@@ -173,4 +173,30 @@ fn the_papers_formulas_draw_the_same_from_near() {
             assert!(1000 * (d.alone + d.apart) <= 10 * d.hits, "{formula:?}: {d:?}");
         }
     }
+}
+
+#[test]
+fn what_a_device_cannot_draw_is_refused() {
+    if adapter::device().is_none() {
+        return;
+    }
+    let blended = Blending::Weighted { offset: 0.5 };
+    let scene = balls(DVec3::ZERO, 20, 0.5, blended);
+    let zeroset_raycast::Geometry::Patches(patches) = &scene.geometry else { panic!("patches") };
+    let both = Patches::new(patches.all().to_vec(), Sides::Both, blended).expect("patches");
+    let huge = cubes(DVec3::ZERO, sphere(1e12), 1e12, 1, Sides::Front);
+    for scene in [Scene::of_patches("both", both), huge] {
+        for method in GPU() {
+            assert!(method.supports(&scene).is_err() && method.prepare(&scene).is_err());
+        }
+    }
+    // Offsets without end, and views without end.
+    let endless = Blending::Weighted { offset: 1e39 };
+    let scene = balls(DVec3::ZERO, 20, 0.5, endless);
+    let view = View::new(Camera::facing(&scene.domain), 8, 8);
+    ask(&QuadricsGpu::incremental(), &scene, &view);
+    let intersector = QuadricsGpu::incremental().prepare(&scene).expect("patches");
+    let view = View::new(Camera::facing(&scene.domain), 1 << 15, 1);
+    let mut hits = Hits::new(Request::First, 1 << 15);
+    assert!(intersector.intersect(Rays::View(&view), &mut hits, &Progress::new()).is_err());
 }

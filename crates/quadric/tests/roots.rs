@@ -175,3 +175,70 @@ fn alpha_may_vanish() {
         assert!(counted.error < 1e-5, "{slope}: {counted:?}");
     }
 }
+
+#[test]
+fn what_lies_behind_the_eye_is_seen_from_behind() {
+    // From z = 0 to negative t the ray comes to the far side of the sphere at -5 first.
+    let quadric = Quadric { a: DMat3::IDENTITY, b: DVec3::ZERO, c: -1.0 };
+    let far = DVec3::new(0.0, 0.0, -6.0);
+    let bound = Bound::Ball { centre: DVec3::ZERO, radius: 0.2 };
+    let quadric = quadric.about(far - DVec3::new(0.0, 0.0, -5.0));
+    let patch = Patch { origin: far, quadric, bound, clip: None };
+    let rays = RayBatch { rays: vec![Ray::new(Vec3::ZERO, Vec3::Z)], range: [-10.0, 10.0] };
+    for method in [Quadrics::incremental(), Quadrics::brute()] {
+        let mut counted = Count::default();
+        count(&method, &patch, Sides::Front, &rays, &mut counted);
+        assert_eq!((counted.decided, counted.hits, counted.wrong), (1, 1, 0), "{method:?}");
+    }
+}
+
+#[test]
+fn patches_are_found_whose_places_cancel() {
+    let plane = Quadric { a: DMat3::ZERO, b: DVec3::new(0.0, 0.0, 0.5), c: 0.0 };
+    let bound = Bound::Ball { centre: DVec3::new(-1e12, 0.0, 0.0), radius: 1e-5 };
+    let patch = Patch { origin: DVec3::new(1e12, 0.0, 0.0), quadric: plane, bound, clip: None };
+    let rays = (-4..=4).map(|i| Ray::new(Vec3::new(2e-6 * i as f32, 0.0, 1.0), Vec3::NEG_Z));
+    let mut counted = Count::default();
+    let rays = RayBatch::new(rays.collect());
+    count(&Quadrics::incremental(), &patch, Sides::Front, &rays, &mut counted);
+    assert_eq!((counted.hits, counted.wrong), (9, 0), "{counted:?}");
+}
+
+#[test]
+fn normals_of_misses_are_zero_whatever_was_there() {
+    let quadric = Quadric { a: DMat3::IDENTITY, b: DVec3::ZERO, c: -1.0 };
+    let bound = Bound::Ball { centre: DVec3::ZERO, radius: 2.0 };
+    let patch = Patch { origin: DVec3::ZERO, quadric, bound, clip: None };
+    let patches = Patches::new(vec![patch], Sides::Front, Blending::None).expect("it is a patch");
+    let scene = Scene::of_patches("one", patches);
+    let methods: [&dyn Method; 2] = [&Quadrics::incremental(), &QuadricReference];
+    for method in methods {
+        let intersector = method.prepare(&scene).expect("patches");
+        let mut hits = Hits::new(Request::FirstWithNormal, 1);
+        for (x, normal) in [(0.0, Vec3::NEG_Z), (5.0, Vec3::ZERO)] {
+            let rays = RayBatch::new(vec![Ray::new(Vec3::new(x, 0.0, -3.0), Vec3::Z)]);
+            let answered = intersector.intersect(Rays::Batch(&rays), &mut hits, &Progress::new());
+            answered.expect("answers");
+            assert_eq!(hits.normal[0], normal, "{}", method.id());
+        }
+    }
+}
+
+#[test]
+fn scenes_of_any_size_are_cast() {
+    for scale in [1e-30, 1e-12, 1e12, 1e30] {
+        let quadric = Quadric { a: DMat3::IDENTITY, b: DVec3::ZERO, c: -scale * scale };
+        let bound = Bound::Ball { centre: DVec3::ZERO, radius: 2.0 * scale };
+        let patch = Patch { origin: DVec3::ZERO, quadric, bound, clip: None };
+        let single = Quadrics { precision: Precision::Single, ..Quadrics::incremental() };
+        for method in [Quadrics::incremental(), single] {
+            let ray = |x: f64| {
+                Ray::new((scale * DVec3::new(x, 0.2, -3.0)).as_vec3(), Vec3::new(0.0, 0.0, 0.7))
+            };
+            let rays = RayBatch::new([0.0, 0.5, 0.9, 1.1].map(ray).to_vec());
+            let mut counted = Count::default();
+            count(&method, &patch, Sides::Front, &rays, &mut counted);
+            assert_eq!((counted.hits, counted.wrong), (3, 0), "{scale} {method:?}: {counted:?}");
+        }
+    }
+}

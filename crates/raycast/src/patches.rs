@@ -130,21 +130,45 @@ impl Bound {
 
 impl Patch {
     fn fault(&self) -> Option<&'static str> {
-        let clip = self.clip.is_none_or(|h| h.normal.is_finite() && h.offset.is_finite());
-        if !(self.origin.is_finite() && self.quadric.is_finite() && clip) {
+        let [min, max] = self.corners();
+        if !(self.origin.is_finite() && self.quadric.is_finite()) {
             return Some("a number that is not finite");
         }
-        self.bound.fault()
+        if !self.clip.is_none_or(|h| h.normal.length().is_normal() && h.offset.is_finite()) {
+            return Some("a clipping plane without a direction");
+        }
+        let fault = self.bound.fault();
+        fault.or((!(min.is_finite() && max.is_finite())).then_some("a bound out of range"))
+    }
+
+    /// The least and the greatest corner of a box in space that holds the bound, however sums were rounded.
+    pub fn corners(&self) -> [DVec3; 2] {
+        let [min, max] = self.bound.corners();
+        let size = match self.bound {
+            Bound::Ball { centre, radius } => centre.abs() + radius,
+            Bound::Tetrahedron(_) => min.abs().max(max.abs()),
+        };
+        let margin = 4.0 * f64::EPSILON * (size + self.origin.abs());
+        [self.origin + min - margin, self.origin + max + margin]
     }
 }
 
 impl Patches {
-    /// Patches that are seen and blended as asked.
+    /// Patches that are seen and blended as asked. Of each A the symmetric part counts, which is all that f
+    /// depends on.
     ///
     /// # Errors
-    /// If there are none, one has numbers that are not finite or a bound that is empty, or tetrahedra are to
-    /// be blended.
-    pub fn new(patches: Vec<Patch>, sides: Sides, blending: Blending) -> Result<Self, Error> {
+    /// If there are none, one has numbers that are not finite, a bound that is empty or a clipping plane
+    /// without a direction, or tetrahedra are to be blended.
+    pub fn new(mut patches: Vec<Patch>, sides: Sides, blending: Blending) -> Result<Self, Error> {
+        for DMat3 { x_axis: x, y_axis: y, z_axis: z } in
+            patches.iter_mut().map(|p| &mut p.quadric.a)
+        {
+            for (a, b) in [(&mut x.y, &mut y.x), (&mut y.z, &mut z.y), (&mut z.x, &mut x.z)] {
+                let mean = a.midpoint(*b);
+                (*a, *b) = (mean, mean);
+            }
+        }
         if patches.is_empty() {
             return Err(Error::Patches("a surface without patches".into()));
         }
@@ -162,7 +186,9 @@ impl Patches {
         if let Blending::Weighted { offset } = blending
             && !(offset >= 0.0 && offset.is_finite())
         {
-            return Err(Error::Patches(format!("the offset {offset} of blending is not above 0")));
+            return Err(Error::Patches(format!(
+                "the offset {offset} of blending is below 0, or not finite"
+            )));
         }
         Ok(Self { patches, sides, blending })
     }
@@ -186,7 +212,7 @@ impl Patches {
     pub fn domain(&self) -> Domain {
         let mut corners = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         for patch in &self.patches {
-            let [least, most] = patch.bound.corners().map(|corner| patch.origin + corner);
+            let [least, most] = patch.corners();
             corners = [corners[0].min(least), corners[1].max(most)];
         }
         let margin = 1e-6 * (corners[1] - corners[0]).max_element() + f64::MIN_POSITIVE;
@@ -241,6 +267,29 @@ mod tests {
     }
 
     #[test]
+    fn boxes_hold_bounds_whose_places_cancel() {
+        let bound = Bound::Ball { centre: DVec3::new(-1e12, 0.0, 0.0), radius: 1e-5 };
+        let patch = Patch { origin: DVec3::new(1e12, 0.0, 0.0), ..patch(bound) };
+        let [min, max] = patch.corners();
+        assert!(min.x < -1e-5 && max.x > 1e-5, "{min} {max}");
+        let Domain { min, max, .. } =
+            Patches::new(vec![patch], Sides::Both, Blending::None).unwrap().domain();
+        assert!(min.x < -1e-5 && max.x > 1e-5, "{min} {max}");
+    }
+
+    #[test]
+    fn the_symmetric_part_counts() {
+        let ball = Bound::Ball { centre: DVec3::ZERO, radius: 1.0 };
+        let mut skewed = patch(ball);
+        skewed.quadric.a.y_axis.x = 2.0;
+        let patches = Patches::new(vec![skewed], Sides::Both, Blending::None).unwrap();
+        let quadric = patches.all()[0].quadric;
+        assert_eq!(quadric.a, quadric.a.transpose());
+        let p = DVec3::new(0.3, -0.7, 0.2);
+        assert!((quadric.value(p) - skewed.quadric.value(p)).abs() < 1e-15);
+    }
+
+    #[test]
     fn what_is_no_patch_is_refused() {
         let ball = |radius: f64| Bound::Ball { centre: DVec3::ZERO, radius };
         let refused = |patches: Vec<Patch>, blending| {
@@ -259,6 +308,15 @@ mod tests {
         assert!(refused(Vec::new(), Blending::None).contains("without patches"));
         let infinite = Patch { quadric: unit_sphere().scaled(f64::INFINITY), ..patch(ball(1.0)) };
         assert!(refused(vec![infinite], Blending::None).contains("not finite"));
+        let cut = |normal| {
+            let clip = Some(HalfSpace { normal, offset: 1.0 });
+            refused(vec![Patch { clip, ..patch(ball(1.0)) }], Blending::None)
+        };
+        for normal in [DVec3::ZERO, 1e-200 * DVec3::X, 1e200 * DVec3::X, DVec3::NAN] {
+            assert!(cut(normal).contains("without a direction"), "{normal}");
+        }
+        let far = Patch { origin: DVec3::splat(f64::MAX), ..patch(ball(f64::MAX)) };
+        assert!(refused(vec![far], Blending::None).contains("out of range"));
         let blended = Blending::Weighted { offset: 0.5 };
         let solid = Bound::Tetrahedron([DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z]);
         assert!(refused(vec![patch(solid)], blended).contains("blended"));

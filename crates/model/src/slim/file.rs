@@ -28,7 +28,10 @@ impl Slim {
     /// # Errors
     /// If the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        let written = File::create(path).and_then(|mut file| file.write_all(&self.to_bytes()));
+        // Beside it first: what is there already stays until the new one is whole.
+        let part = path.with_added_extension("part");
+        let written = File::create(&part).and_then(|mut file| file.write_all(&self.to_bytes()));
+        let written = written.and_then(|()| std::fs::rename(&part, path));
         written.map_err(|e| refused(path, format!("cannot be written: {e}; choose another place")))
     }
 

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, Vec3};
 use zeroset_raycast::{Bound, HalfSpace, Patch, Projection, View};
 
-use crate::piece::Formula;
+use crate::piece::{Formula, balanced};
 
 /// The shader's `Frame`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -76,8 +76,11 @@ pub(super) fn send(patch: &Patch, centre: DVec3, formula: Formula) -> (SentPatch
         Formula::Local => (patch.origin - centre, DVec3::ZERO),
         Formula::Quotient | Formula::Reciprocal => (DVec3::ZERO, patch.origin - centre),
     };
-    let quadric = patch.quadric.about(-shift);
     let (middle, radius) = patch.bound.ball();
+    let quadric = match formula {
+        Formula::Local => balanced(&patch.quadric, radius),
+        Formula::Quotient | Formula::Reciprocal => patch.quadric.about(-shift),
+    };
     let cut = patch.clip.map_or((DVec3::ZERO, 0.0), |HalfSpace { normal, offset }| {
         let length = normal.length();
         // As beyond faces, a little more than half counts.

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use zeroset_gpu::device::{self, Format};
 use zeroset_gpu::{Choice, Device};
 use zeroset_raycast::{
-    Blending, Error, GeometryKind, Intersector, Knob, KnobError, Method, Patches, Scene,
+    Blending, Error, GeometryKind, Intersector, Knob, KnobError, Method, Patches, Scene, Sides,
     Unsupported, knob,
 };
 
@@ -45,6 +45,8 @@ pub enum Culling {
     Fragments,
 }
 
+/// Radii of scenes: squares of what is much smaller are numbers still.
+const SIZES: [f64; 2] = [1e-9, 1e9];
 const SUMS: [(&str, Format); 3] =
     [("single", Format::Single), ("half", Format::Half), ("byte", Format::Byte)];
 const CULLINGS: [(&str, Culling); 2] =
@@ -71,6 +73,18 @@ impl QuadricsGpu {
     fn open(&self, patches: &Patches) -> Result<Arc<Device>, Unsupported> {
         let device = Device::open(&self.device).map_err(|why| Unsupported(why.to_string()))?;
         let is_blended = patches.blending() != Blending::None;
+        if is_blended && patches.sides() == Sides::Both {
+            let why = "devices blend one root of a ball: both sides are for surfaces that are not blended";
+            return Err(Unsupported(why.into()));
+        }
+        let radius = patches.domain().radius();
+        if !(SIZES[0] <= radius && radius <= SIZES[1]) {
+            return Err(Unsupported(format!(
+                "a scene of radius {radius:e} is out of the range of single precision: scale it to between \
+                 {:e} and {:e}",
+                SIZES[0], SIZES[1]
+            )));
+        }
         if is_blended && self.sums == Format::Single && !device.adds_singles() {
             return Err(Unsupported(format!(
                 "the device {} cannot add numbers of 32 bits: set sums=half",

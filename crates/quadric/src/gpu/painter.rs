@@ -130,7 +130,11 @@ impl Painter {
             passes.push(drawn);
         }
         let sums = if stages.len() > 1 { method.sums } else { Format::Single };
-        let source = format!("const BYTES = {};\n{RESOLVE}", sums == Format::Byte);
+        let source = format!(
+            "const SUMS = {};\nconst BYTES = {};\n{RESOLVE}",
+            stages.len() > 1,
+            sums == Format::Byte
+        );
         let bindings = [Binding::Uniform, Binding::Texture, Binding::Texture, Binding::Write];
         let resolve = device.kernel("resolve", &source, &bindings)?;
         let clock = device.clock()?;
@@ -233,7 +237,7 @@ impl Stage {
         for (name, value) in constants {
             text += &format!("const {name} = {value};\n");
         }
-        text + &format!("const OFFSET = {:?};\n{SPLAT}{}", self.offset as f32, self.paint)
+        text + &format!("const OFFSET = {:?};\n{SPLAT}{}", self.offset.min(1e6) as f32, self.paint)
     }
 }
 

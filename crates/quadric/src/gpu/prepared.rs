@@ -87,6 +87,13 @@ impl Intersector for PreparedOnDevice {
                 view.width, view.height
             )));
         }
+        let most = painter.device.largest_binding() as usize / size_of::<Answer>();
+        if rays.len() > most {
+            return Err(unsupported(format!(
+                "an image of {} x {} pixels is too large for this device: at most {most} pixels",
+                view.width, view.height
+            )));
+        }
         let drawn = painter.draw(view);
         let (answers, device_time) = match drawn {
             Ok(drawn) => drawn,

@@ -4,7 +4,7 @@ use zeroset_cpu::Class;
 use zeroset_raycast::{Patches, Ray};
 
 use super::root::{self, Root};
-use super::{Found, WIDEST};
+use super::{Found, is_narrow};
 use crate::hierarchy::Hierarchy;
 
 pub(super) fn find(patches: &Patches, hierarchy: &Hierarchy, ray: Ray, range: [f64; 2]) -> Found {
@@ -37,7 +37,7 @@ fn first(roots: &[Root], range: [f64; 2]) -> (Class, [f64; 2]) {
         let most = roots.iter().map(|r| r.t[1]).fold(f64::NEG_INFINITY, f64::max);
         return (Class::Undecidable, [from, most.min(range[1])]);
     }
-    let is_narrow = to - from <= WIDEST * (from.abs() + to.abs());
+    let is_narrow = is_narrow([from, to]);
     let is_double = roots.iter().any(|r| r.is_double && r.t[0] <= to);
     let class = match (is_narrow, is_double) {
         (false, _) => Class::Undecidable,

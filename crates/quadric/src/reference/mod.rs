@@ -12,6 +12,8 @@ mod sheet;
 
 use std::sync::Arc;
 
+use glam::Vec3;
+use rayon::prelude::*;
 use zeroset_cpu::{Class, Truth, tiles};
 use zeroset_expr::Parameters;
 use zeroset_raycast::{
@@ -40,6 +42,11 @@ pub struct PreparedQuadricReference {
 
 /// The widest bracket of a decided ray, to its t.
 const WIDEST: f64 = 1e-9;
+
+/// Is a bracket narrow enough to decide a ray?
+fn is_narrow([from, to]: [f64; 2]) -> bool {
+    from.is_finite() && to - from <= WIDEST * (from.abs() + to.abs())
+}
 
 impl QuadricReference {
     /// Prepares for a scene; also [`PreparedQuadricReference::classify`] is then at hand.
@@ -104,7 +111,6 @@ impl PreparedQuadricReference {
         indices: &[usize],
         progress: &Progress,
     ) -> Result<Vec<Truth>, Error> {
-        use rayon::prelude::*;
         let chunks: Vec<Vec<Truth>> = indices
             .par_chunks(64)
             .map(|chunk| {
@@ -148,25 +154,21 @@ impl Intersector for PreparedQuadricReference {
         hits: &mut Hits,
         progress: &Progress,
     ) -> Result<Report, Error> {
-        let range = rays.range();
-        let report = tiles::cast(rays, hits, progress, |tile| {
+        let (request, range) = (hits.request, rays.range());
+        tiles::cast(rays, hits, progress, |tile| {
             tile.iter()
                 .map(|&ray| {
                     let truth = self.truth(ray, range);
                     let (bracket, certificate) = (truth.bracket, truth.certificate());
-                    Hit { bracket, certificate, work: truth.work }
+                    let normal = match request {
+                        Request::FirstWithNormal if certificate.is_hit() => {
+                            self.normals.normal(ray, range)
+                        }
+                        _ => Vec3::ZERO,
+                    };
+                    (Hit { bracket, certificate, work: truth.work }, normal)
                 })
-                .collect()
-        })?;
-        if hits.request == Request::FirstWithNormal {
-            let mut seen = Hits::without_work(hits.request, rays.len());
-            self.normals.intersect(rays, &mut seen, &Progress::new())?;
-            for (i, normal) in seen.normal.into_iter().enumerate() {
-                if hits.certificate[i].is_hit() {
-                    hits.normal[i] = normal;
-                }
-            }
-        }
-        Ok(report)
+                .collect::<Vec<_>>()
+        })
     }
 }

@@ -4,6 +4,7 @@ use glam::DVec3;
 use zeroset_ia::{BigInterval, Enclosure, Interval, Set, Unary};
 use zeroset_raycast::{Bound, Domain, HalfSpace, Patch, Ray, Sides};
 
+use super::is_narrow;
 use crate::equation::Equation;
 
 /// A root that is, or may be, in its patch's bound and in the range of the ray.
@@ -24,7 +25,7 @@ pub(super) fn roots(patch: &Patch, sides: Sides, ray: Ray, range: [f64; 2]) -> (
     let mut found = solve(&double, patch, sides, ray, range);
     let mut solved = 1;
     for bits in BITS {
-        if found.iter().all(|root| root.is_sure) {
+        if found.iter().all(|root| root.is_sure && is_narrow(root.t)) {
             break;
         }
         found = solve(&BigInterval::from_f64(0.0, bits), patch, sides, ray, range);
@@ -140,12 +141,8 @@ fn solve<N: Bits>(zero: &N, patch: &Patch, sides: Sides, ray: Ray, range: [f64; 
 
 /// The range of t in which the ray may be in the patch's bound.
 fn within(patch: &Patch, ray: Ray, range: [f64; 2]) -> Option<[f64; 2]> {
-    let [min, max] = patch.bound.corners().map(|corner| patch.origin + corner);
-    // The sums, and the corners of a ball's box, were rounded.
-    let (reach, size) = (min.abs().max(max.abs()), (max - min).max_element());
-    let margin = 4.0 * f64::EPSILON * (reach + size + patch.origin.abs());
-    let domain = Domain { min: min - margin, max: max + margin, ball: None };
-    domain.clip(ray, range).map(|clip| clip.outer)
+    let [min, max] = patch.corners();
+    Domain { min, max, ball: None }.clip(ray, range).map(|clip| clip.outer)
 }
 
 fn dot<N: Enclosure>(a: &[N; 3], b: &[N; 3]) -> N {
@@ -169,7 +166,10 @@ fn enclosed<N: Enclosure>(equation: &Equation<N>, sides: Sides) -> Vec<(Option<N
         return Vec::new();
     }
     if !discriminant.is_positive() {
-        return vec![(None, false)];
+        return match sides {
+            Sides::Front => vec![(None, false)],
+            Sides::Both => vec![(None, false); 2],
+        };
     }
     let s = discriminant.unary(Unary::Sqrt);
     // (-beta - s)/alpha and (-beta + s)/alpha, each as the quotient that does not cancel.
@@ -293,7 +293,8 @@ mod tests {
         let patch = Patch { quadric: plane, ..sphere(1.0) };
         let ray = Ray::new(Vec3::new(-3.0, 0.0, 0.0), Vec3::X);
         let (found, _) = roots(&patch, Sides::Both, ray, ALL);
-        let [root] = found[..] else { panic!("{found:?}") };
+        let [root, other] = found[..] else { panic!("{found:?}") };
+        assert_eq!(root, other);
         assert!(!root.is_sure && (root.t[0] - 2.0).abs() < 1e-9 && (root.t[1] - 4.0).abs() < 1e-9);
         let above = Ray::new(Vec3::new(-3.0, 0.0, 0.1), Vec3::X);
         assert_eq!(roots(&patch, Sides::Both, above, ALL).0, []);

@@ -5,7 +5,7 @@ use zeroset_ia::{Interval, Number, Set, Unary};
 use zeroset_raycast::{Bound, Patches, Ray};
 
 use super::root::{self, Root};
-use super::{Found, WIDEST};
+use super::{Found, is_narrow};
 use crate::hierarchy::Hierarchy;
 
 type I = Interval<f64, Set>;
@@ -76,7 +76,7 @@ fn mean(parts: &[Part]) -> (Class, [f64; 2]) {
     }
     let t = I::point(start) + moment / total;
     let bracket = [t.lo.max(hull[0]), t.hi.min(hull[1])];
-    let is_narrow = bracket[1] - bracket[0] <= WIDEST * (bracket[0].abs() + bracket[1].abs());
+    let is_narrow = is_narrow(bracket);
     let is_double = belonging.iter().any(|p| p.root.is_double);
     let class = match (is_narrow, is_double) {
         (false, _) => Class::Undecidable,

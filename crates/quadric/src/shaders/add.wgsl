@@ -18,11 +18,15 @@ fn weight(d: f32) -> f32 {
 fn paint(fragment: Varying) -> Painted {
     let found = find(fragment);
     let w = weight(found.distance);
+    // Another pass may round the same depth otherwise.
+    let depth = found.depth - 2.5e-7;
+    // Halves do not hold every length.
+    let place = found.position / frame.radius;
     if BYTES {
         // From 0 to 1, and room for eight of them.
-        let position = 0.5 + 0.5 * found.position / frame.radius;
+        let position = 0.5 + 0.5 * place;
         let normal = 0.5 + 0.5 * found.normal;
-        return Painted(vec4f(position, 1.0) * (0.125 * w), vec4f(normal, 1.0) * (0.125 * w), found.depth);
+        return Painted(vec4f(position, 1.0) * (0.125 * w), vec4f(normal, 1.0) * (0.125 * w), depth);
     }
-    return Painted(vec4f(found.position, 1.0) * w, vec4f(found.normal, 1.0) * w, found.depth);
+    return Painted(vec4f(place, 1.0) * w, vec4f(found.normal, 1.0) * w, depth);
 }

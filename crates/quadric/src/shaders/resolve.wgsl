@@ -1,4 +1,4 @@
-// From sums to means, pixel by pixel. Constants before this text: BYTES.
+// From sums to means, pixel by pixel. Constants before this text: SUMS, BYTES.
 
 struct Resolve {
     width: u32,
@@ -35,8 +35,11 @@ fn main(
     if position.w > 0.0 {
         position = vec4f(position.xyz / position.w, position.w);
         if BYTES {
-            position = vec4f((2.0 * position.xyz - 1.0) * resolve.radius, position.w);
+            position = vec4f(2.0 * position.xyz - 1.0, position.w);
             normal = vec4f(2.0 * normal.xyz / max(normal.w, 1e-6) - 1.0, normal.w);
+        }
+        if SUMS {
+            position = vec4f(position.xyz * resolve.radius, position.w);
         }
     }
     answers[i] = Answer(position, normal);

@@ -79,6 +79,17 @@ fn times(p: Patch, x: vec3f) -> vec3f {
     );
 }
 
+// The same with all terms positive.
+fn abs_times(p: Patch, x: vec3f) -> vec3f {
+    let diagonal = abs(p.diagonal);
+    let mixed = abs(p.mixed);
+    return vec3f(
+        diagonal.x * x.x + mixed.x * x.y + mixed.z * x.z,
+        mixed.x * x.x + diagonal.y * x.y + mixed.y * x.z,
+        mixed.z * x.x + mixed.y * x.y + diagonal.z * x.z,
+    );
+}
+
 // Along right, up and forward.
 fn seen(x: vec3f) -> vec3f {
     return vec3f(dot(x, frame.right), dot(x, frame.up), dot(x, frame.forward));
@@ -114,9 +125,11 @@ fn is_hidden(p: Patch, k: u32, eye: vec3f) -> bool {
     } else {
         most = dot(p.centre - eye, b) + p.radius * length(b);
     }
-    let size = dot(abs(eye), abs(ae) + 2.0 * abs(p.b)) + abs(p.c);
-    let far = length(eye) + length(p.centre) + p.radius;
-    return c + most < -1e-5 * (size + length(b) * far);
+    // Each term of c and b has a few roundings.
+    let largest = abs_times(p, abs(eye));
+    let size = dot(abs(eye), largest + 2.0 * abs(p.b)) + abs(p.c);
+    let reach = abs(eye) + abs(p.centre) + p.radius;
+    return c + most < -4e-6 * (size + dot(largest + abs(p.b), reach));
 }
 
 // Fills in what is linear, for a ray of local point and direction.
@@ -145,7 +158,8 @@ fn ball(k: u32, vertex: u32) -> Varying {
         if c.z <= -r {
             return nowhere();
         }
-        if c.z > r {
+        // Nearer, rounding moves the tangents.
+        if c.z > 1.01 * r {
             // Tangents to the circles in which planes along an axis of the image cut the ball.
             let square = c.z * c.z - r * r;
             let root = r * sqrt(max(c.xy * c.xy + square, vec2f(0.0)));
@@ -278,7 +292,8 @@ fn solve(alpha: f32, beta: f32, gamma: f32) -> Roots {
         // Eq. 7.
         if abs(alpha) < 1e-6 {
             let t = -gamma / (2.0 * beta);
-            return Roots(t, t, true);
+            // One root; the other is nowhere.
+            return Roots(select(3e38, t, beta < 0.0), select(t, 3e38, beta < 0.0), true);
         }
         return Roots((-beta - s) / alpha, (s - beta) / alpha, true);
     }
