@@ -1,17 +1,17 @@
 //! `zeroset show`: what is known of a surface.
 
 use clap::Args;
-use zeroset::raycast::Domain;
 use zeroset::raycast::catalogue::{Rotation, Status, Surface};
+use zeroset::raycast::{Blending, Bound, Domain, Geometry, Patch, Scene, Sides};
 
 use crate::failure::Failure;
-use crate::{output, surface};
+use crate::{output, pieces, surface};
 
 /// Shows a surface: its equation, its source, and what is known of it.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct Show {
-    /// A catalogue id; else a file that holds an equation, or a catalogue of your own: FILE.toml, or
-    /// FILE.toml#ID; else an equation such as "x^4+y^4+z^4=1"
+    /// A catalogue id; else a file that holds an equation, or pieces (FILE.slim, FILE.tets), or a
+    /// catalogue of your own: FILE.toml, or FILE.toml#ID; else an equation such as "x^4+y^4+z^4=1"
     #[arg(value_name = "SURFACE", allow_hyphen_values = true)]
     surface: String,
 }
@@ -19,6 +19,20 @@ pub(crate) struct Show {
 impl Show {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<(), Failure> {
+        let lines = match pieces::scene(&self.surface)? {
+            Some(scene) => of_pieces(&scene),
+            None => self.of_function()?,
+        };
+        let text: String = lines
+            .iter()
+            .map(|(key, value)| {
+                format!("{key:<11}{}\n", value.replace('\n', &format!("\n{:11}", "")))
+            })
+            .collect();
+        output::print(text.as_bytes())
+    }
+
+    fn of_function(&self) -> Result<Vec<(&'static str, String)>, Failure> {
         let surface = surface::resolve(&self.surface)?;
         let function = surface.function().map_err(|error| surface::unreadable(&error))?;
         let scene = surface.scene().map_err(|error| surface::unreadable(&error))?;
@@ -36,14 +50,30 @@ impl Show {
         }
         lines.push(("domain", domain(&scene.domain)));
         lines.extend(facts(&surface));
-        let text: String = lines
-            .iter()
-            .map(|(key, value)| {
-                format!("{key:<11}{}\n", value.replace('\n', &format!("\n{:11}", "")))
-            })
-            .collect();
-        output::print(text.as_bytes())
+        Ok(lines)
     }
+}
+
+/// What there is to say of a surface in pieces.
+fn of_pieces(scene: &Scene) -> Vec<(&'static str, String)> {
+    let mut lines = vec![("surface", scene.id.clone())];
+    if let Geometry::Patches(patches) = &scene.geometry {
+        let balls = |p: &&Patch| matches!(p.bound, Bound::Ball { .. });
+        let balls = patches.all().iter().filter(balls).count();
+        let solids = patches.all().len() - balls;
+        lines.push(("pieces", format!("{balls} in balls, {solids} in tetrahedra")));
+        let sides = match patches.sides() {
+            Sides::Front => "seen from outside",
+            Sides::Both => "seen from both sides",
+        };
+        let blending = match patches.blending() {
+            Blending::None => "the first hit counts".into(),
+            Blending::Weighted { offset } => format!("blended, with an offset of {offset} radii"),
+        };
+        lines.push(("hits", format!("{sides}; {blending}")));
+    }
+    lines.push(("domain", domain(&scene.domain)));
+    lines
 }
 
 fn domain(domain: &Domain) -> String {

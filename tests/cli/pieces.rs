@@ -45,6 +45,8 @@ fn volumes_become_tetrahedra() {
     assert!(told.contains(" hits of 1024 rays"), "{told}");
     let told = done(folder.path(), &["render", "skin-water", "--size", "32x32"]);
     assert!(!told.starts_with("0 hits"), "{told}");
+    let told = done(folder.path(), &["show", "skin-water"]);
+    assert!(told.contains("0 in balls, 42 in tetrahedra"), "{told}");
 }
 
 #[test]
