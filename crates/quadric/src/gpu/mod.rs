@@ -8,6 +8,7 @@ mod buffers;
 mod painter;
 mod prepared;
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use zeroset_gpu::device::{self, Format};
@@ -46,7 +47,7 @@ pub enum Culling {
 }
 
 /// Radii of scenes: squares of what is much smaller are numbers still.
-const SIZES: [f64; 2] = [1e-9, 1e9];
+const SIZES: RangeInclusive<f64> = 1e-9..=1e9;
 const SUMS: [(&str, Format); 3] =
     [("single", Format::Single), ("half", Format::Half), ("byte", Format::Byte)];
 const CULLINGS: [(&str, Culling); 2] =
@@ -78,11 +79,12 @@ impl QuadricsGpu {
             return Err(Unsupported(why.into()));
         }
         let radius = patches.domain().radius();
-        if !(SIZES[0] <= radius && radius <= SIZES[1]) {
+        if !SIZES.contains(&radius) {
             return Err(Unsupported(format!(
                 "a scene of radius {radius:e} is out of the range of single precision: scale it to between \
                  {:e} and {:e}",
-                SIZES[0], SIZES[1]
+                SIZES.start(),
+                SIZES.end()
             )));
         }
         if is_blended && self.sums == Format::Single && !device.adds_singles() {
