@@ -17,6 +17,8 @@ pub(crate) struct Builtin {
     /// What it is.
     pub(crate) name: &'static str,
     patches: fn() -> Result<Patches, Error>,
+    /// Where its domain is another's, so that both are seen alike: what that one is called.
+    seen_as: Option<&'static str>,
 }
 
 /// The built-in surfaces in pieces.
@@ -25,26 +27,32 @@ pub(crate) const BUILTINS: [Builtin; 5] = [
         id: "skin-water",
         name: "Skin surface of a water molecule",
         patches: || skin::Skin::default().patches(&skin::water().atoms()),
+        seen_as: None,
     },
     Builtin {
         id: "skin-ethanol",
         name: "Skin surface of an ethanol molecule",
         patches: || skin::Skin::default().patches(&skin::ethanol().atoms()),
+        seen_as: None,
     },
     Builtin {
         id: "skin-benzene",
         name: "Skin surface of a benzene molecule",
         patches: || skin::Skin::default().patches(&skin::benzene().atoms()),
+        seen_as: None,
     },
     Builtin {
         id: "folded-strip",
         name: "Twisted bilinear quadrilaterals",
         patches: || bilinear::patches(&bilinear::folded_strip()),
+        seen_as: None,
     },
     Builtin {
         id: "folded-strip-triangles",
         name: "The same quadrilaterals as two triangles each",
         patches: || bilinear::triangle_patches(&bilinear::folded_strip()),
+        // Triangles are cut from planes by tetrahedra that reach far above them.
+        seen_as: Some("folded-strip"),
     },
 ];
 
@@ -52,7 +60,11 @@ pub(crate) const BUILTINS: [Builtin; 5] = [
 pub(crate) fn scene(text: &str) -> Result<Option<Scene>, Failure> {
     let text = text.trim();
     if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.id == text) {
-        return Ok(Some(Scene::of_patches(builtin.id, (builtin.patches)()?)));
+        let mut scene = Scene::of_patches(builtin.id, (builtin.patches)()?);
+        if let Some(other) = builtin.seen_as.map(self::scene).transpose()?.flatten() {
+            scene.domain = other.domain;
+        }
+        return Ok(Some(scene));
     }
     let path = Path::new(text);
     let patches = if has_extension(path, "slim") {

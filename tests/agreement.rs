@@ -109,6 +109,7 @@ fn check(surface: &Surface, registry: &Registry) -> Tally {
     let pixels = truths(&Footprints(&oracle), Rays::View(&coarse));
 
     let mut tally = Tally::default();
+    let mut of_pixels: Vec<(&str, Hits)> = Vec::new();
     let certified = registry.certified();
     let all = registry.iter().chain(certified.iter().map(AsRef::as_ref));
     for (k, method) in all.enumerate().filter(|(_, method)| method.supports(&scene).is_ok()) {
@@ -119,6 +120,7 @@ fn check(surface: &Surface, registry: &Registry) -> Tally {
             let place = format!("{} on {}", method.id(), scene.id);
             let hits = ask(intersector.as_ref(), Rays::View(&coarse));
             tally.judge(&place, Rays::View(&coarse), &hits, &pixels, finds);
+            of_pixels.push((method.id(), hits));
             continue;
         }
         for (rays, truths) in [(Rays::View(&view), &seen), (Rays::Batch(&batch), &known)] {
@@ -130,6 +132,15 @@ fn check(surface: &Surface, registry: &Registry) -> Tally {
                 tally.certified[0] += 1;
                 tally.certified[1] += usize::from(certificate.contains(Certificate::ROOT));
             }
+        }
+    }
+    // Whether a pixel is hit may differ only where none of its rays is known to hit.
+    for (i, truth) in pixels.truths.iter().enumerate() {
+        let is_rooted = [Class::Transversal, Class::Tangential].contains(&truth.class);
+        let found = of_pixels.iter().filter(|(_, hits)| hits.certificate[i].is_hit()).count();
+        if is_rooted && found != 0 && found != of_pixels.len() {
+            let ids: Vec<_> = of_pixels.iter().map(|(id, hits)| (id, hits.get(i))).collect();
+            tally.fault(&scene.id, format!("pixel {i}, {truth:?}: {ids:?}"));
         }
     }
     tally

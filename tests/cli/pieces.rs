@@ -45,6 +45,12 @@ fn volumes_become_tetrahedra() {
     assert!(told.contains(" hits of 1024 rays"), "{told}");
     let told = done(folder.path(), &["render", "skin-water", "--size", "32x32"]);
     assert!(!told.starts_with("0 hits"), "{told}");
+    // Both are seen from the same place.
+    let domain = |id| {
+        let told = done(folder.path(), &["show", id]);
+        told.lines().find(|line| line.starts_with("domain")).map(String::from).expect("a domain")
+    };
+    assert_eq!(domain("folded-strip"), domain("folded-strip-triangles"));
     let told = done(folder.path(), &["show", "skin-water"]);
     assert!(told.contains("0 in balls, 42 in tetrahedra"), "{told}");
 }
